@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "abradem/core/vec3.h"
+
+/// A case, resolved: what the case file says, in SI units, as plain data. The case reader fills it, a C++
+/// program may fill it by hand; `Simulation` takes it. Keys and defaults: docs/reference/case-file.md.
+namespace abradem::simulation {
+
+struct MaterialSetup {
+  std::string name;
+  double density = 0.0;        ///< [kg/m^3]
+  double shear_modulus = 0.0;  ///< [Pa]
+  double poisson_ratio = 0.0;  ///< [-]
+  std::optional<double> hardness;  ///< [Pa]; only to state k = alpha H
+};
+
+struct ContactSetup {
+  std::string first, second;  ///< material names, any order
+  double restitution = 1.0;       ///< [-]
+  double static_friction = 0.0;   ///< [-]
+  double rolling_friction = 0.0;  ///< [-] constant-torque model
+};
+
+struct WearSetup {
+  std::string abrader, worn;      ///< the first wears the second
+  double wear_coefficient = 0.0;  ///< alpha_s = k / H_s [1/Pa], Archard
+};
+
+enum class MeshShape { annulus, disc, plate, plane, file };
+struct MeshSetup {
+  MeshShape shape = MeshShape::annulus;
+  double inner = 0.0, outer = 0.0;   ///< annulus, disc: radii [m]
+  double length = 0.0, width = 0.0;  ///< plate: along x and y [m]
+  double size = 0.0;                 ///< target edge length [m]
+  Vec3 position;                     ///< where the shape's centre (or the file's origin) goes [m]
+  Vec3 normal{0.0, 0.0, 1.0};        ///< plane: its outward normal
+  std::string file;                  ///< absolute, or relative to the case file's folder
+  double unit = 1.0;                 ///< file: metres per unit of length in the file
+};
+
+enum class MotionKind { none, rotation, translation, oscillation };
+/// Rigid motion of a wall. An oscillation moves by amplitude * sin(2 pi frequency t).
+struct MotionSetup {
+  MotionKind kind = MotionKind::none;
+  Vec3 axis{0.0, 0.0, 1.0};
+  Vec3 center;             ///< a point on the axis of rotation [m]
+  double rate = 0.0;       ///< rotation [rad/s]
+  Vec3 velocity;           ///< translation [m/s]
+  Vec3 amplitude;          ///< oscillation [m]
+  double frequency = 0.0;  ///< oscillation [Hz]
+};
+
+enum class ContactRule { patch, resolved, per_triangle };
+enum class DeformationRule { none, conserving, paper };
+enum class Footprint { hertz, overlap };
+
+struct WallSetup {
+  std::string name;
+  std::string material;
+  MeshSetup mesh;
+  MotionSetup motion;
+  ContactRule contact = ContactRule::patch;
+  DeformationRule deformation = DeformationRule::none;
+  Footprint footprint = Footprint::hertz;
+  int deform_every = 1;  ///< steps between updates of the shape; 1 in the rule `paper`
+};
+
+enum class Guide { none, vertical };
+struct ParticleSetup {
+  std::string name;
+  std::string material;
+  double radius = 0.0;  ///< [m]
+  Vec3 position;        ///< [m]
+  Vec3 velocity;        ///< [m/s]
+  Vec3 spin;            ///< [rad/s]
+  Guide guide = Guide::none;  ///< vertical: a holder leaves only the motion along the load free, no spin
+  Vec3 load;                  ///< constant force [N], besides gravity
+};
+
+/// A length of the run: a time, or a number of revolutions (cycles) of the first wall that turns (oscillates).
+struct Duration {
+  double value = 0.0;
+  bool in_revolutions = false;
+};
+
+enum class Method { dynamic, quasi_static };
+
+/// A step given in seconds, or as a fraction of the smallest Rayleigh time.
+struct TimeStep {
+  double value = 0.2;
+  bool of_rayleigh = true;
+};
+
+struct RunSetup {
+  Duration end;
+  Method method = Method::dynamic;
+  TimeStep time_step;
+  std::optional<double> increment;  ///< quasi_static: sliding distance per step [m]; default: chosen from the contact
+  Vec3 gravity;                     ///< [m/s^2]
+  std::uint64_t seed = 1;           ///< of the mesh generator and every random stream
+};
+
+struct OutputSetup {
+  Duration every{1.0, true};  ///< frames and table rows
+  int contours = 360;         ///< sections of the worn surface per output
+};
+
+struct MeanSd {
+  double mean = 0.0, sd = 0.0;
+};
+struct Range {
+  double low = 0.0, high = 0.0;
+};
+/// What the laboratory found; only compared with, never fitted to, by a run.
+struct MeasurementSetup {
+  std::optional<MeanSd> wear_volume;   ///< [m^3]
+  std::optional<Range> depth, width;   ///< [m]
+  std::optional<double> revolutions;   ///< [-]
+};
+
+struct Setup {
+  std::string title;
+  std::vector<MaterialSetup> materials;
+  std::vector<ContactSetup> contacts;
+  std::vector<WearSetup> wear;
+  std::vector<WallSetup> walls;
+  std::vector<ParticleSetup> particles;
+  RunSetup run;
+  OutputSetup output;
+  std::optional<MeasurementSetup> measurement;
+};
+
+}  // namespace abradem::simulation
