@@ -8,10 +8,12 @@
 namespace abradem::geometry {
 
 /// Flat ring in the plane z = 0, centred on the origin, normals along +z. Unstructured, near-equilateral
-/// triangles of the given edge length; the same seed gives the same mesh, bit for bit.
+/// triangles of the given edge length; the same seed gives the same mesh, bit for bit. Mean quality above
+/// 0.97 for ten or more triangles across the ring, least quality above 0.55 (docs/theory/meshes.md). Vertices
+/// and triangles are numbered along a space-filling curve. O(n log n), about 1 s for 10^6 triangles.
 /// @param inner,outer radii [m], 0 < inner < outer   @param size target edge length [m]
-/// @throws InputError when the sizes cannot be meshed (not positive, size larger than the ring, more
-///         triangles than Index can number)
+/// @throws InputError when the sizes cannot be meshed (not positive, size larger than the ring's width,
+///         more than 10^8 triangles)
 [[nodiscard]] TriangleMesh make_annulus(double inner, double outer, double size, std::uint64_t seed);
 
 /// Flat disc in the plane z = 0, centred on the origin, normals along +z; otherwise as make_annulus.
