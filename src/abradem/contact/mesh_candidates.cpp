@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/contact/mesh_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace abradem::contact {
+
+namespace {
+
+using geometry::TriangleMesh;
+
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+std::size_t padded(std::size_t n) noexcept {
+  return (n + MeshCandidates::kLanes - 1) / MeshCandidates::kLanes * MeshCandidates::kLanes;
+}
+
+/// What a ball of the given reach can meet while its centre stays within the skin around c.
+struct Sweep {
+  Vec3 c, axis;
+  double reach;
+  CandidateSkin skin;
+
+  /// Something within `radius` of `centre` across the axis and `half_depth` of it along the axis.
+  [[nodiscard]] bool may_meet(const Vec3& centre, double radius, double half_depth) const noexcept {
+    const Vec3 offset = centre - c;
+    const double along = dot(offset, axis);
+    const double across = std::sqrt(std::max(0.0, norm2(offset) - along * along));
+    const double a = std::max(0.0, across - radius - skin.tangential);
+    const double b = std::max(0.0, std::abs(along) - half_depth - skin.normal);
+    return a * a + b * b < reach * reach;
+  }
+
+  [[nodiscard]] bool may_meet(const TriangleMesh& mesh, Index t) const noexcept {
+    const geometry::Triangle& v = mesh.triangles[at(t)];
+    const Vec3 &p0 = mesh.vertices[at(v[0])], &p1 = mesh.vertices[at(v[1])], &p2 = mesh.vertices[at(v[2])];
+    const Vec3 centroid = (p0 + p1 + p2) * (1.0 / 3.0);
+    const Vec3 q0 = p0 - centroid, q1 = p1 - centroid, q2 = p2 - centroid;
+    const double radius = std::sqrt(std::max({norm2(q0), norm2(q1), norm2(q2)}));
+    const double half_depth = std::max({std::abs(dot(q0, axis)), std::abs(dot(q1, axis)), std::abs(dot(q2, axis))});
+    return may_meet(centroid, radius, half_depth);
+  }
+};
+
+}  // namespace
+
+void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
+                            const CandidateSkin& skin) {
+  const Vec3 moved = c - built_at_;
+  const double along = dot(moved, built_axis_);
+  const double across2 = norm2(moved) - along * along;
+  const double wear = surface.moved - moved_at_gather_;
+  const bool inside = gathered_ && reach <= built_reach_ &&
+                      std::abs(along) + wear <= built_skin_.normal &&
+                      across2 <= built_skin_.tangential * built_skin_.tangential;
+  if (!inside) {
+    gather(surface, c, axis, reach, skin);
+  } else if (revision_ != surface.revision) {
+    fetch_positions(surface.mesh);
+    // Positions are always the mesh's own; areas and lengths may lag behind by a ten-thousandth of an edge,
+    // which changes a force by less than 1e-8.
+    constexpr double kShapeTolerance = 1e-4;
+    if (surface.moved - moved_at_measure_ > kShapeTolerance * shortest_) {
+      measure_triangles();
+      moved_at_measure_ = surface.moved;
+    }
+    revision_ = surface.revision;
+  }
+}
+
+void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
+                            const CandidateSkin& skin) {
+  const TriangleMesh& mesh = surface.mesh;
+  if (local_.size() != mesh.vertices.size()) local_.assign(mesh.vertices.size(), -1);
+  // A little more than asked for, so that a reach that wavers does not gather every step.
+  built_reach_ = reach + 0.25 * skin.normal;
+  // With no axis every direction is as likely: the whole skin counts as both.
+  const double whole = std::hypot(skin.tangential, skin.normal);
+  const Sweep sweep{c, axis, built_reach_, axis == Vec3{} ? CandidateSkin{whole, 0.0} : skin};
+  const double radius = built_reach_ + whole + surface.moved;
+
+  node.clear();
+  triangle.clear();
+  v0.clear(), v1.clear(), v2.clear();
+  const auto add = [&](Index t) {
+    if (!sweep.may_meet(mesh, t)) return;
+    triangle.push_back(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index v = mesh.triangles[at(t)][k];
+      std::int32_t& local = local_[at(v)];
+      if (local < 0) {
+        local = static_cast<std::int32_t>(node.size());
+        node.push_back(v);
+      }
+      (k == 0 ? v0 : k == 1 ? v1 : v2).push_back(local);
+    }
+  };
+  surface.grid.visit_near(
+      c - Vec3{radius, radius, radius}, c + Vec3{radius, radius, radius},
+      [&](const Vec3& centre, double r) { return sweep.may_meet(centre, r + surface.moved, r + surface.moved); }, add);
+  for (const Index v : node) local_[at(v)] = -1;
+
+  const std::size_t nodes = padded(node.size()), triangles = padded(triangle.size());
+  constexpr double far_away = 1e3;  // [m]: squares stay finite and no ball reaches it
+  for (auto* array : {&x, &y, &z}) array->assign(nodes, far_away);
+  for (auto* array : {&v0, &v1, &v2}) array->resize(triangles, 0);
+  for (auto* array : {&ax, &ay, &az, &plane, &l01, &l12, &l20, &longest, &area}) array->assign(triangles, 0.0);
+  fetch_positions(mesh);
+  measure_triangles();
+
+  gathered_ = true;
+  built_at_ = c;
+  built_axis_ = axis;
+  built_skin_ = skin;
+  moved_at_gather_ = moved_at_measure_ = surface.moved;
+  revision_ = surface.revision;
+  ++gatherings_;
+}
+
+void MeshCandidates::fetch_positions(const TriangleMesh& mesh) noexcept {
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const Vec3& p = mesh.vertices[at(node[i])];
+    x[i] = p.x;
+    y[i] = p.y;
+    z[i] = p.z;
+  }
+}
+
+void MeshCandidates::measure_triangles() noexcept {
+  Vec3 sum;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < triangle.size(); ++t) {
+    const Vec3 p0 = node_position(static_cast<std::size_t>(v0[t]));
+    const Vec3 e01 = node_position(static_cast<std::size_t>(v1[t])) - p0;
+    const Vec3 e02 = node_position(static_cast<std::size_t>(v2[t])) - p0;
+    const Vec3 a = 0.5 * cross(e01, e02);
+    ax[t] = a.x, ay[t] = a.y, az[t] = a.z;
+    area[t] = norm(a);
+    plane[t] = dot(a, p0);
+    l01[t] = norm2(e01);
+    l20[t] = norm2(e02);
+    l12[t] = norm2(e02 - e01);
+    longest[t] = std::max({l01[t], l12[t], l20[t]});
+    shortest = std::min({shortest, l01[t], l12[t], l20[t]});
+    sum += a;
+  }
+  shortest_ = std::sqrt(shortest);
+  const double total = norm(sum);
+  constexpr double kCos10Degrees = 0.984807753012208;
+  nearly_flat_ = total > 0.0;
+  for (std::size_t t = 0; t < triangle.size() && nearly_flat_; ++t)
+    nearly_flat_ = ax[t] * sum.x + ay[t] * sum.y + az[t] * sum.z >= kCos10Degrees * area[t] * total;
+}
+
+}  // namespace abradem::contact

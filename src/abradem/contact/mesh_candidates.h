@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "abradem/geometry/triangle_grid.h"
+#include "abradem/geometry/triangle_mesh.h"
+
+namespace abradem::contact {
+
+using geometry::Index;
+
+/// A deforming surface as contact sees it: positions and topology in the wall's own frame, and how far wear has
+/// moved them.
+struct SurfaceView {
+  const geometry::TriangleMesh& mesh;
+  const geometry::TriangleGrid& grid;
+  std::uint64_t revision = 0;  ///< changes whenever a vertex moves
+  double moved = 0.0;          ///< bound on the distance that any vertex has moved since the grid was built [m]
+};
+
+/// How far a sphere may move before its candidates are gathered again: across the surface, and towards it.
+struct CandidateSkin {
+  double tangential = 0.0;  ///< [m]
+  double normal = 0.0;      ///< [m]
+};
+
+/// The triangles of a mesh that one sphere can meet, gathered into small contiguous arrays with vertices of
+/// their own numbering. They stay valid while the sphere moves less than the skin, so that a step touches
+/// nothing but these arrays (8 kB for a contact of 200 triangles). Arrays are padded to whole SIMD lanes with
+/// vertices out of reach and triangles of no area.
+class MeshCandidates {
+ public:
+  static constexpr std::size_t kLanes = 8;
+
+  /// Brings the candidates up to date for a sphere at c. Gathers anew when the sphere has left the skin;
+  /// otherwise fetches moved vertices.
+  /// @param axis unit vector from c towards the surface (the last contact's), or zero: unknown
+  /// @param reach distance from c within which a triangle counts [m]
+  void update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach, const CandidateSkin& skin);
+
+  /// Forgets everything, so that the next update gathers anew: makes a restarted run take the same steps.
+  void reset() noexcept { gathered_ = false; }
+
+  [[nodiscard]] std::size_t node_count() const noexcept { return node.size(); }
+  [[nodiscard]] std::size_t triangle_count() const noexcept { return triangle.size(); }
+  [[nodiscard]] std::size_t padded_triangle_count() const noexcept { return v0.size(); }
+  /// All candidates face nearly the same way (within 10 degrees): one patch, no clusters to look for.
+  [[nodiscard]] bool nearly_flat() const noexcept { return nearly_flat_; }
+  [[nodiscard]] Vec3 node_position(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
+  [[nodiscard]] std::uint64_t gatherings() const noexcept { return gatherings_; }
+
+  std::vector<Index> node;                 ///< mesh vertex of each local node
+  std::vector<double> x, y, z;             ///< node positions, padded [m]
+  std::vector<Index> triangle;             ///< mesh triangle of each local triangle
+  std::vector<std::int32_t> v0, v1, v2;    ///< local nodes of each triangle, padded
+  std::vector<double> ax, ay, az;          ///< area vectors, padded [m^2]
+  std::vector<double> plane;               ///< area vector . vertex, padded [m^3]
+  std::vector<double> l01, l12, l20;       ///< squared edge lengths, padded [m^2]
+  std::vector<double> longest;             ///< largest of the three [m^2]
+  std::vector<double> area;                ///< [m^2]
+
+ private:
+  void gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach, const CandidateSkin& skin);
+  void fetch_positions(const geometry::TriangleMesh& mesh) noexcept;
+  void measure_triangles() noexcept;
+
+  bool gathered_ = false, nearly_flat_ = false;
+  Vec3 built_at_, built_axis_;
+  CandidateSkin built_skin_;
+  double built_reach_ = 0.0, moved_at_gather_ = 0.0, moved_at_measure_ = 0.0, shortest_ = 0.0;
+  std::uint64_t revision_ = 0, gatherings_ = 0;
+  std::vector<std::int32_t> local_;        // scratch: local number of a mesh vertex, or -1
+};
+
+}  // namespace abradem::contact

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "abradem/contact/hertz_mindlin.h"
+#include "abradem/contact/mesh_candidates.h"
+
+namespace abradem::contact {
+
+/// One connected spot of contact between a sphere and a mesh: one normal, one spring, one Coulomb cone.
+struct Patch {
+  Vec3 n;                      ///< unit normal, from the surface to the sphere
+  double overlap = 0.0;        ///< overlap of a plane with the same weighted overlap volume M [m]
+  double elastic_force = 0.0;  ///< K |sum G_T n_T| [N]
+  double deepest = 0.0;        ///< largest local overlap R - |x - c| in the patch [m]
+  int triangles = 0;           ///< overlapped triangles
+};
+
+/// The contact rule `patch`: the force is an integral over the overlapped surface, so it does not know the
+/// triangulation. F = K sum_T G_T n_T, with K a function of M alone and such that a plane gives Hertz exactly;
+/// so the force is the gradient of a potential and does no work around a closed loop.
+/// docs/theory/contact.md#patch
+///
+/// One object per (sphere, wall); it keeps its arrays from step to step.
+class PatchEvaluator {
+ public:
+  /// Finds the patches of a sphere at c among the candidates (which must be up to date for it).
+  /// @return valid until the next call; deepest patch first, empty without contact
+  std::span<const Patch> evaluate(const MeshCandidates& candidates, const Vec3& c, double R,
+                                  const PairProperties& pair);
+
+  /// 1 - |x - c|^2 / R^2 at the corners of each candidate triangle, from the last evaluation; > 0 inside.
+  [[nodiscard]] std::span<const double> corner_excess(int k) const noexcept {
+    return k == 0 ? e0_ : k == 1 ? e1_ : e2_;
+  }
+  /// Integral of g / R over the overlapped part of each candidate triangle, over the triangle's area [-].
+  [[nodiscard]] std::span<const double> mean_overlap() const noexcept { return mean_g_; }
+  /// Patch of a candidate triangle (index into the last result) or, where it does not overlap, of the nearest
+  /// overlapped surface; -1 without contact.
+  [[nodiscard]] int patch_of(std::size_t triangle) const noexcept {
+    return clusters_.empty() ? (patches_.empty() ? -1 : 0) : clusters_[triangle];
+  }
+  [[nodiscard]] bool single_patch() const noexcept { return clusters_.empty(); }
+
+ private:
+  void classify(const MeshCandidates& candidates, const Vec3& c, double R, double limit);
+  void add_rim(const MeshCandidates& candidates, std::size_t t, bool inside, const Vec3& c, double R);
+  void integrate_rim();
+  void integrate_exactly(const MeshCandidates& candidates, const Vec3& c, double R);
+  void deepest_points(const MeshCandidates& candidates, double R);
+  void single(const MeshCandidates& candidates, const Vec3& c, double R, const PairProperties& pair);
+  void cluster(const MeshCandidates& candidates, const Vec3& c, double R, const PairProperties& pair);
+
+  std::vector<double> excess_, e0_, e1_, e2_, mean_g_, mean_m_, bound_, inside_;
+  std::vector<Patch> patches_;
+  std::vector<int> clusters_;  // patch of each triangle; empty: one patch
+
+  /// Triangles that the rim of the ball cuts, turned so that vertex 0 is the odd one out; padded.
+  struct Rim {
+    std::vector<double> e0, e1, e2, l01, l12, l20, E, inside, g, m;
+    std::vector<std::int32_t> triangle;
+    std::size_t count = 0;
+  } rim_;
+  std::vector<std::int32_t> general_;     // triangles for the general formula
+  std::vector<std::int32_t> deep_;        // triangles whose inside may be deeper than any node
+  double deepest_excess_ = 0.0;
+  int overlapped_ = 0;
+};
+
+/// Stiffness factor K of F = K sum G_T n_T at an equivalent overlap delta [N/m^3]:
+/// 4 E_eff / (3 pi sqrt(R delta) (1 - 2 delta / 3R)).
+[[nodiscard]] double patch_stiffness(const PairProperties& pair, double R, double delta) noexcept;
+
+}  // namespace abradem::contact
