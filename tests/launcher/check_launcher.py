@@ -126,7 +126,10 @@ class Launcher(unittest.TestCase):
 
     def answer(self, text):
         """Starts with a terminal as standard input and types text."""
-        mine, theirs = pty.openpty()
+        try:
+            mine, theirs = pty.openpty()
+        except OSError:
+            self.skipTest("this machine has no terminals to give")
         os.write(mine, text.encode())
         result = subprocess.run([self.tree / "abradem", "run"], cwd=self.cwd, env=self.environment(), stdin=theirs,
                                 capture_output=True, text=True, timeout=60)
