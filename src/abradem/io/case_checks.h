@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "abradem/io/case_problems.h"
+#include "abradem/simulation/setup.h"
+
+namespace abradem::io {
+
+/// Where each key of the case was written, by its path ("wall.disc.mesh.size"), and which values were wrong,
+/// so that the checks between keys neither lose their place nor complain twice.
+class Places {
+ public:
+  void set(const std::string& path, const Place& place) { places_[path] = place; }
+  void set_wrong(const std::string& path) { wrong_[path] = true; }
+
+  /// The place of the key, or of the nearest table around it that was written.
+  [[nodiscard]] Place of(std::string path) const;
+  [[nodiscard]] bool given(const std::string& path) const { return places_.contains(path); }
+  /// Whether neither the key nor anything inside it was found wrong.
+  [[nodiscard]] bool good(const std::string& path) const;
+
+ private:
+  std::map<std::string, Place> places_;
+  std::map<std::string, bool> wrong_;
+};
+
+/// Adds what is wrong between keys: names that do not exist, pairs that are missing, shapes and positions
+/// that cannot be meant.
+void check_case(const simulation::Setup& setup, const Places& places, Problems& problems);
+
+/// Whether some wall turns or oscillates, so that revolutions can be counted.
+[[nodiscard]] bool counts_revolutions(const simulation::Setup& setup) noexcept;
+
+/// Says why a wall of this extent [m] is probably given in the wrong unit of length, seen from a pin of this
+/// radius [m]; empty where the two go together.
+[[nodiscard]] std::string implausible_extent(std::string_view wall, double extent, std::string_view particle,
+                                             double radius);
+
+}  // namespace abradem::io

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+
+#include "abradem/io/case_schema.h"
+
+namespace abradem::io {
+namespace {
+
+std::size_t one(const Target&) { return 1; }
+void nothing(const Target&) {}
+void stay(Target&, std::size_t) {}
+
+/// "a/b" → a, b; the reader has checked that there is exactly one slash.
+void split_pair(const std::string& pair, std::string& first, std::string& second) {
+  const std::size_t slash = pair.find('/');
+  first = pair.substr(0, slash);
+  second = pair.substr(slash + 1);
+}
+
+const std::array kSections{
+    Section{.path = "",
+            .doc = "Keys at the top of the file.",
+            .presence = Presence::required,
+            .count = one,
+            .add = nothing,
+            .enter = stay},
+    Section{.path = "material.*",
+            .doc = "A material; its name is used by walls, particles and pairs. The constants "
+                   "have no defaults: they decide the result.",
+            .presence = Presence::at_least_one,
+            .naming = Naming::name,
+            .count = [](const Target& t) { return t.setup->materials.size(); },
+            .add = [](const Target& t) { t.setup->materials.emplace_back(); },
+            .enter = [](Target& t, std::size_t i) { t.material = &t.setup->materials[i]; },
+            .name = [](const Target& t) { return t.material->name; },
+            .rename = [](const Target& t, const std::string& name) { t.material->name = name; }},
+    Section{.path = "contact.*",
+            .doc = "How two materials act on each other; the names in any order.",
+            .naming = Naming::pair,
+            .count = [](const Target& t) { return t.setup->contacts.size(); },
+            .add = [](const Target& t) { t.setup->contacts.emplace_back(); },
+            .enter = [](Target& t, std::size_t i) { t.contact = &t.setup->contacts[i]; },
+            .name = [](const Target& t) { return t.contact->first + "/" + t.contact->second; },
+            .rename = [](const Target& t,
+                         const std::string& pair) { split_pair(pair, t.contact->first, t.contact->second); }},
+    Section{.path = "wear.*",
+            .doc = "How the first material wears the second.",
+            .naming = Naming::pair,
+            .count = [](const Target& t) { return t.setup->wear.size(); },
+            .add = [](const Target& t) { t.setup->wear.emplace_back(); },
+            .enter = [](Target& t, std::size_t i) { t.wear = &t.setup->wear[i]; },
+            .name = [](const Target& t) { return t.wear->abrader + "/" + t.wear->worn; },
+            .rename = [](const Target& t,
+                         const std::string& pair) { split_pair(pair, t.wear->abrader, t.wear->worn); }},
+    Section{.path = "wall.*",
+            .doc = "A surface that particles touch: a mesh, how it moves, and how it wears.",
+            .presence = Presence::at_least_one,
+            .naming = Naming::name,
+            .count = [](const Target& t) { return t.setup->walls.size(); },
+            .add = [](const Target& t) { t.setup->walls.emplace_back(); },
+            .enter = [](Target& t, std::size_t i) { t.wall = &t.setup->walls[i]; },
+            .name = [](const Target& t) { return t.wall->name; },
+            .rename = [](const Target& t, const std::string& name) { t.wall->name = name; }},
+    Section{.path = "wall.*.mesh",
+            .doc = "The shape of the wall: generated, read from a file, or an analytic plane.",
+            .presence = Presence::required,
+            .count = one,
+            .add = nothing,
+            .enter = stay},
+    Section{.path = "wall.*.motion",
+            .doc = "The rigid motion of the wall.",
+            .count = one,
+            .add = nothing,
+            .enter = stay},
+    Section{.path = "particle.*",
+            .doc = "A sphere.",
+            .presence = Presence::at_least_one,
+            .naming = Naming::name,
+            .count = [](const Target& t) { return t.setup->particles.size(); },
+            .add = [](const Target& t) { t.setup->particles.emplace_back(); },
+            .enter = [](Target& t, std::size_t i) { t.particle = &t.setup->particles[i]; },
+            .name = [](const Target& t) { return t.particle->name; },
+            .rename = [](const Target& t, const std::string& name) { t.particle->name = name; }},
+    Section{.path = "run",
+            .doc = "How long, and how.",
+            .presence = Presence::required,
+            .count = one,
+            .add = nothing,
+            .enter = stay},
+    Section{.path = "output",
+            .doc = "What is written, and how often.",
+            .count = one,
+            .add = nothing,
+            .enter = stay},
+    Section{.path = "measurement",
+            .doc = "What the laboratory found; drawn beside the result, never used by the run.",
+            .count = [](const Target& t) { return std::size_t{t.setup->measurement ? 1u : 0u}; },
+            .add = [](const Target& t) { t.setup->measurement.emplace(); },
+            .enter = stay},
+    Section{.path = "measurement.wear_volume",
+            .doc = "Volume worn off.",
+            .count = [](const Target& t) { return std::size_t{t.setup->measurement->wear_volume ? 1u : 0u}; },
+            .add = [](const Target& t) { t.setup->measurement->wear_volume.emplace(); },
+            .enter = stay},
+    Section{.path = "measurement.depth",
+            .doc = "Depth of the groove.",
+            .count = [](const Target& t) { return std::size_t{t.setup->measurement->depth ? 1u : 0u}; },
+            .add = [](const Target& t) { t.setup->measurement->depth.emplace(); },
+            .enter = stay},
+    Section{.path = "measurement.width",
+            .doc = "Width of the groove.",
+            .count = [](const Target& t) { return std::size_t{t.setup->measurement->width ? 1u : 0u}; },
+            .add = [](const Target& t) { t.setup->measurement->width.emplace(); },
+            .enter = stay},
+};
+
+}  // namespace
+
+std::span<const Section> case_sections() { return kSections; }
+
+}  // namespace abradem::io

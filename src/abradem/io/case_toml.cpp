@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/io/case_toml.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+
+namespace abradem::io {
+namespace {
+
+Place place_of(const toml::source_region& region, int source) {
+  return {source, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+Value convert(const toml::node& node, int source);
+
+void convert_table(const toml::table& table, int source, Value& value) {
+  value.type = Value::Type::table;
+  for (const auto& [key, child] : table)
+    value.entries.push_back({std::string(key.str()), place_of(key.source(), source), convert(child, source)});
+  // The library sorts by name; the order of the file matters (the first wall that turns counts revolutions).
+  std::stable_sort(value.entries.begin(), value.entries.end(), [](const Entry& a, const Entry& b) {
+    return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
+  });
+}
+
+Value convert(const toml::node& node, int source) {
+  Value value;
+  value.place = place_of(node.source(), source);
+  if (const toml::table* table = node.as_table()) {
+    convert_table(*table, source, value);
+  } else if (const toml::array* array = node.as_array()) {
+    value.type = Value::Type::array;
+    for (const toml::node& item : *array) value.items.push_back(convert(item, source));
+  } else if (const auto* text = node.as_string()) {
+    value.type = Value::Type::text;
+    value.text = text->get();
+  } else if (const auto* integer = node.as_integer()) {
+    value.type = Value::Type::integer;
+    value.integer = integer->get();
+  } else if (const auto* number = node.as_floating_point()) {
+    value.type = Value::Type::number;
+    value.number = number->get();
+  } else if (const auto* boolean = node.as_boolean()) {
+    value.type = Value::Type::boolean;
+    value.boolean = boolean->get();
+  } else {
+    value.type = Value::Type::date;
+  }
+  return value;
+}
+
+/// The first '=' outside quotes, or npos.
+std::size_t assignment_sign(std::string_view text) {
+  char quote = '\0';
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote != '\0') {
+      if (c == '\\' && quote == '"') ++i;
+      if (c == quote) quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '=') {
+      return i;
+    }
+  }
+  return std::string_view::npos;
+}
+
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+Value parse_assignment(std::string_view text, int source, Problems& problems) {
+  const std::size_t sign = assignment_sign(text);
+  if (sign == std::string_view::npos || sign == 0) {
+    problems.error({source, 1, 1},
+                   "expected KEY=VALUE, such as run.end=\"24 s\" or wall.disc.contact=resolved");
+    return {};
+  }
+  if (text.substr(sign + 1).find_first_not_of(" \t") == std::string_view::npos) {
+    problems.error({source, 1, static_cast<int>(sign) + 1}, "the value after '=' is missing");
+    return {};
+  }
+  try {
+    return convert(toml::parse(text), source);
+  } catch (const toml::parse_error&) {
+    // Not TOML as it stands: the value is meant as text, and what is wrong with the key shows below.
+  }
+  std::string_view value = text.substr(sign + 1);
+  value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size()));
+  try {
+    return convert(toml::parse(fmt::format("{}{}", text.substr(0, sign + 1), quoted(value))), source);
+  } catch (const toml::parse_error& error) {
+    problems.error(place_of(error.source(), source),
+                   fmt::format("{}; expected KEY=VALUE with a dotted key, names with '/' or '.' in quotes",
+                               error.description()));
+    return {};
+  }
+}
+
+/// Names of the sections whose entries the user names; an override changes what is there and adds no new one,
+/// or a slip of the finger would create a second pin.
+bool holds_named_entries(std::string_view key) {
+  return key == "material" || key == "contact" || key == "wear" || key == "wall" || key == "particle";
+}
+
+/// Whether the entry is a step of a dotted key (a.b = …), which goes into the table there; an inline table
+/// (a = { … }) takes its place.
+bool is_dotted(const Entry& e) {
+  return e.value.type == Value::Type::table && e.value.place.column == e.place.column;
+}
+
+void overlay(Value& base, const Value& change, bool named, std::string_view parent, Problems& problems) {
+  for (const Entry& e : change.entries) {
+    Entry* existing = base.find(e.key);
+    if (existing == nullptr) {
+      if (named) {
+        std::string there;
+        for (const Entry& b : base.entries) there += fmt::format("{}'{}'", there.empty() ? "" : ", ", b.key);
+        problems.error(e.place, fmt::format("the case has no {} '{}'; it has {}", parent, e.key,
+                                            there.empty() ? "none at all" : there));
+        continue;
+      }
+      if (parent.empty() && holds_named_entries(e.key)) {
+        problems.error(e.place, fmt::format("the case has no [{}.…] to override", e.key));
+        continue;
+      }
+      base.entries.push_back(e);
+    } else if (existing->value.type == Value::Type::table && is_dotted(e)) {
+      overlay(existing->value, e.value, parent.empty() && holds_named_entries(e.key), e.key, problems);
+    } else {
+      *existing = e;
+    }
+  }
+}
+
+}  // namespace
+
+Value parse_toml(std::string_view text, Problems& problems) {
+  try {
+    return convert(toml::parse(text), 0);
+  } catch (const toml::parse_error& error) {
+    problems.error(place_of(error.source(), 0), fmt::format("this is not TOML: {}", error.description()));
+    return {};
+  }
+}
+
+void apply_override(Value& tree, std::string_view assignment, Problems& problems) {
+  const int source = problems.add_source(std::string(assignment));
+  const Value change = parse_assignment(assignment, source, problems);
+  overlay(tree, change, false, "", problems);
+}
+
+}  // namespace abradem::io
