@@ -48,6 +48,11 @@ std::string nearest_spelling(std::string_view word, std::span<const std::string_
       nearest = candidate;
     }
   }
+  // "friction" for "static_friction": too many edits, but plain to a person.
+  constexpr std::size_t kTelling = 4;
+  if (nearest.empty() && word.size() >= kTelling)
+    for (const std::string_view candidate : candidates)
+      if (lower(candidate).find(folded) != std::string::npos) return std::string(candidate);
   return std::string(nearest);
 }
 

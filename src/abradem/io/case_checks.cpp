@@ -179,7 +179,7 @@ class Checker {
 
   void check_wall(const WallSetup& wall) {
     const std::string path = path_of("wall", wall.name);
-    if (good(path + ".mesh")) check_mesh(wall, path + ".mesh");
+    if (good(path + ".mesh") && !check_mesh(wall, path + ".mesh")) unusable_.insert(wall.name);
     if (wall.mesh.shape == MeshShape::plane && good(path + ".mesh") &&
         wall.deformation != DeformationRule::none)
       error(path + ".deformation",
@@ -192,19 +192,20 @@ class Checker {
                 wall.deform_every));
   }
 
-  void check_mesh(const WallSetup& wall, const std::string& path) {
+  /// @return false when the shape makes no sense, so that nothing can be said about what lies on it
+  bool check_mesh(const WallSetup& wall, const std::string& path) {
     const MeshSetup& m = wall.mesh;
     if (m.shape == MeshShape::file) check_mesh_file(m, path);
-    if (!is_generated(m.shape)) return;
+    if (!is_generated(m.shape)) return true;
     if (m.shape == MeshShape::annulus && m.outer <= m.inner) {
       error(path + ".outer", fmt::format("the outer radius, {}, must be larger than the inner one, {}",
                                          readable(m.outer), readable(m.inner)));
-      return;
+      return false;
     }
     if (m.size > narrowest(m)) {
       error(path + ".size", fmt::format("triangles of {} do not fit into a shape {} wide; make size smaller",
                                         readable(m.size), readable(narrowest(m))));
-      return;
+      return false;
     }
     constexpr double kMost = 20e6;  // about 4 GB with everything kept per triangle
     const double triangles = area(m) / (std::numbers::sqrt3 / 4.0 * m.size * m.size);
@@ -214,6 +215,7 @@ class Checker {
                         "this program takes; make size at least {}",
                         core::format_quantity(m.size, "mm"), 1e6 * area(m), triangles,
                         mm(m.size * std::sqrt(triangles / kMost))));
+    return true;
   }
 
   void check_mesh_file(const MeshSetup& m, const std::string& path) {
@@ -288,7 +290,7 @@ class Checker {
     bool unknown = setup_.walls.empty();
     for (const WallSetup& wall : setup_.walls) {
       const std::string mesh = path_of("wall", wall.name) + ".mesh";
-      if (!good(mesh) || !is_flat(wall.mesh.shape)) {
+      if (!good(mesh) || unusable_.contains(wall.name) || !is_flat(wall.mesh.shape)) {
         unknown = true;  // its shape is known only once the file is read
         continue;
       }
@@ -403,6 +405,7 @@ class Checker {
   const Places& places_;
   Problems& problems_;
   std::set<std::string> materials_;
+  std::set<std::string> unusable_;  // walls whose shape is wrong
   std::set<std::pair<std::string, std::string>> reported_;
 };
 

@@ -120,7 +120,7 @@ class Reader {
       const std::string_view before = part.substr(0, error.position);
       there.place.column +=
           1 + static_cast<int>(std::ranges::count_if(before, [](char c) { return (c & 0xC0) != 0x80; }));
-      return wrong(there, fmt::format("{}, in \"{}\"", error.what(), part));
+      return wrong(there, fmt::format("in \"{}\": {}", value.text, error.what()));
     }
   }
 
@@ -275,9 +275,13 @@ class Reader {
         return wrong(value, fmt::format("{} is not a finite number", written(value)));
     } else if (value.type == Value::Type::text) {
       std::string_view part = value.text;
-      if (part.ends_with(kRayleigh)) {
+      const std::string_view last = part.substr(part.find_last_of(" %") + 1);
+      if (last == kRayleigh) {
         result.of_rayleigh = true;
         part.remove_suffix(kRayleigh.size());
+      } else if (!core::nearest_spelling(last, {&kRayleigh, 1}).empty()) {
+        return wrong(
+            value, fmt::format("expected {}, got \"{}\"; did you mean \"rayleigh\"?", kExpected, value.text));
       }
       const auto read = parsed(value, part);
       if (!read) return std::nullopt;
