@@ -143,7 +143,7 @@ double scaled(std::string_view number, const Unit& unit, std::size_t position) {
   digits += fmt::format("e{}", exponent);
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc{}) value = value * unit.numerator / unit.denominator;
+  if (error == std::errc{}) value = value / unit.denominator * unit.numerator;  // 30 rpm: exactly pi
   if (error != std::errc{} || !std::isfinite(value))
     throw UnitError(position, fmt::format("'{}' is out of the range of a number", number));
   return value;
@@ -314,20 +314,20 @@ std::string shifted(double value, int shift) {
   exponent -= value == 0.0 ? 0 : shift;
   constexpr int kLowest = -4,
                 kHighest = 9;  // beyond these powers of ten a person reads 1e-5 faster than zeros
-  std::string result;
+  std::string result(negative ? "-" : "");
   if (exponent < kLowest || exponent > kHighest) {
-    result = digits.substr(0, 1);
-    if (digits.size() > 1) result += "." + digits.substr(1);
+    result += digits.front();
+    if (digits.size() > 1) result.append(".").append(digits, 1);
     result += fmt::format("e{}", exponent);
   } else if (exponent < 0) {
-    result = "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
+    result.append("0.").append(static_cast<std::size_t>(-exponent - 1), '0').append(digits);
   } else {
     const auto whole = static_cast<std::size_t>(exponent) + 1;
     if (digits.size() < whole) digits.append(whole - digits.size(), '0');
-    result = digits.substr(0, whole);
-    if (digits.size() > whole) result += "." + digits.substr(whole);
+    result.append(digits, 0, whole);
+    if (digits.size() > whole) result.append(".").append(digits, whole);
   }
-  return negative ? "-" + result : result;
+  return result;
 }
 
 bool reads_back(const std::string& text, double value) { return parse_quantity(text).value == value; }

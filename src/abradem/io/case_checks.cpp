@@ -441,7 +441,7 @@ bool counts_revolutions(const Setup& setup) noexcept {
 std::string implausible_extent(std::string_view wall, double extent, std::string_view particle,
                                double radius) {
   constexpr double kMostRadii = 3000.0;  // a 3 mm pin on a disc of 9 m; machines stay a hundred times below
-  constexpr double kFewestRadii = 1e-2;
+  constexpr double kFewestRadii = 0.05;  // less than the contact itself is wide
   if (extent > kMostRadii * radius)
     return fmt::format(
         "wall '{}' is {} wide and '{}' has a radius of {}: is the wall given in millimetres? A bare number "

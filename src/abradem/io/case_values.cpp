@@ -156,7 +156,7 @@ class Reader {
     if (!number || within(*number)) return number;
     return wrong(value,
                  fmt::format("must be {}{}, got {}", describe_limits(row_),
-                             row_.unit.empty() || row_.limits.low == 0.0 ? "" : " " + std::string(row_.unit),
+                             row_.unit.empty() || row_.limits.low == 0.0 ? "" : fmt::format(" {}", row_.unit),
                              written(value)));
   }
 
@@ -304,7 +304,8 @@ class Reader {
     if (value.type != Value::Type::text) return quantity(value);
     try {
       const core::Unit unit = core::parse_unit(value.text);
-      if (unit.dimension == Dimension{.length = 1}) return core::parse_quantity("1 " + value.text).value;
+      if (unit.dimension == Dimension{.length = 1})
+        return core::parse_quantity(fmt::format("1 {}", value.text)).value;
       return wrong(value, fmt::format("expected a unit of length such as \"mm\", got \"{}\"", value.text));
     } catch (const core::UnitError&) {
       return quantity(value);  // "25.4 mm" is a unit too

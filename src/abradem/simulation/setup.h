@@ -18,6 +18,7 @@ struct MaterialSetup {
   double shear_modulus = 0.0;  ///< [Pa]
   double poisson_ratio = 0.0;  ///< [-]
   std::optional<double> hardness;  ///< [Pa]; only to state k = alpha H
+  bool operator==(const MaterialSetup&) const = default;
 };
 
 struct ContactSetup {
@@ -25,11 +26,13 @@ struct ContactSetup {
   double restitution = 1.0;       ///< [-]
   double static_friction = 0.0;   ///< [-]
   double rolling_friction = 0.0;  ///< [-] constant-torque model
+  bool operator==(const ContactSetup&) const = default;
 };
 
 struct WearSetup {
   std::string abrader, worn;      ///< the first wears the second
   double wear_coefficient = 0.0;  ///< alpha_s = k / H_s [1/Pa], Archard
+  bool operator==(const WearSetup&) const = default;
 };
 
 enum class MeshShape { annulus, disc, plate, plane, file };
@@ -42,6 +45,7 @@ struct MeshSetup {
   Vec3 normal{0.0, 0.0, 1.0};        ///< plane: its outward normal
   std::string file;                  ///< absolute, or relative to the case file's folder
   double unit = 1.0;                 ///< file: metres per unit of length in the file
+  bool operator==(const MeshSetup&) const = default;
 };
 
 enum class MotionKind { none, rotation, translation, oscillation };
@@ -54,6 +58,7 @@ struct MotionSetup {
   Vec3 velocity;           ///< translation [m/s]
   Vec3 amplitude;          ///< oscillation [m]
   double frequency = 0.0;  ///< oscillation [Hz]
+  bool operator==(const MotionSetup&) const = default;
 };
 
 enum class ContactRule { patch, resolved, per_triangle };
@@ -69,6 +74,7 @@ struct WallSetup {
   DeformationRule deformation = DeformationRule::none;
   Footprint footprint = Footprint::hertz;
   int deform_every = 1;  ///< steps between updates of the shape; 1 in the rule `paper`
+  bool operator==(const WallSetup&) const = default;
 };
 
 enum class Guide { none, vertical };
@@ -81,12 +87,14 @@ struct ParticleSetup {
   Vec3 spin;            ///< [rad/s]
   Guide guide = Guide::none;  ///< vertical: a holder leaves only the motion along the load free, no spin
   Vec3 load;                  ///< constant force [N], besides gravity
+  bool operator==(const ParticleSetup&) const = default;
 };
 
 /// A length of the run: a time, or a number of revolutions (cycles) of the first wall that turns (oscillates).
 struct Duration {
   double value = 0.0;
   bool in_revolutions = false;
+  bool operator==(const Duration&) const = default;
 };
 
 enum class Method { dynamic, quasi_static };
@@ -95,6 +103,7 @@ enum class Method { dynamic, quasi_static };
 struct TimeStep {
   double value = 0.2;
   bool of_rayleigh = true;
+  bool operator==(const TimeStep&) const = default;
 };
 
 struct RunSetup {
@@ -104,24 +113,29 @@ struct RunSetup {
   std::optional<double> increment;  ///< quasi_static: sliding distance per step [m]; default: chosen from the contact
   Vec3 gravity;                     ///< [m/s^2]
   std::uint64_t seed = 1;           ///< of the mesh generator and every random stream
+  bool operator==(const RunSetup&) const = default;
 };
 
 struct OutputSetup {
   Duration every{1.0, true};  ///< frames and table rows
   int contours = 360;         ///< sections of the worn surface per output
+  bool operator==(const OutputSetup&) const = default;
 };
 
 struct MeanSd {
   double mean = 0.0, sd = 0.0;
+  bool operator==(const MeanSd&) const = default;
 };
 struct Range {
   double low = 0.0, high = 0.0;
+  bool operator==(const Range&) const = default;
 };
 /// What the laboratory found; only compared with, never fitted to, by a run.
 struct MeasurementSetup {
   std::optional<MeanSd> wear_volume;   ///< [m^3]
   std::optional<Range> depth, width;   ///< [m]
   std::optional<double> revolutions;   ///< [-]
+  bool operator==(const MeasurementSetup&) const = default;
 };
 
 struct Setup {
@@ -134,6 +148,7 @@ struct Setup {
   RunSetup run;
   OutputSetup output;
   std::optional<MeasurementSetup> measurement;
+  bool operator==(const Setup&) const = default;
 };
 
 }  // namespace abradem::simulation
