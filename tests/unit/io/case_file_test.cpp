@@ -364,7 +364,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"static_friction = 1", "static_friction = 1\ngravity = 1", "it belongs in [run]"},
         BadValue{"static_friction = 1", "static_friction = 1\nlaw = \"hooke\"",
                  "expected one of \"hertz_mindlin\""},
-        BadValue{"\"plane\"", "\"plain\"", "did you mean \"plane\"?"},
+        BadValue{"\"plane\"", "\"plnae\"", "did you mean \"plane\"?"},
         BadValue{"\"plane\"", "3", "expected one of"},
         BadValue{"shape = \"plane\"", "", "missing key 'shape'"},
         BadValue{"shape = \"plane\"", "shape = \"plane\", size = 1",
