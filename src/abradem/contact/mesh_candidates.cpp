@@ -46,25 +46,27 @@ struct Sweep {
 
 }  // namespace
 
-void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
-                            const CandidateSkin& skin) {
+bool MeshCandidates::stale(const SurfaceView& surface, const Vec3& c, double reach) const noexcept {
   const Vec3 moved = c - built_at_;
   const double along = dot(moved, built_axis_);
   const double across2 = norm2(moved) - along * along;
-  const double wear = surface.moved - moved_at_gather_;
-  const bool inside = gathered_ && reach <= built_reach_ &&
-                      std::abs(along) + wear <= built_skin_.normal &&
-                      across2 <= built_skin_.tangential * built_skin_.tangential;
-  if (!inside) {
+  const double wear = surface.odometer - odometer_at_gather_;
+  return !gathered_ || reach > built_reach_ || std::abs(along) + wear > built_skin_.normal ||
+         across2 > built_skin_.tangential * built_skin_.tangential;
+}
+
+void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
+                            const CandidateSkin& skin) {
+  if (stale(surface, c, reach)) {
     gather(surface, c, axis, reach, skin);
   } else if (revision_ != surface.revision) {
     fetch_positions(surface.mesh);
     // Positions are always the mesh's own; areas and lengths may lag behind by a ten-thousandth of an edge,
     // which changes a force by less than 1e-8.
     constexpr double kShapeTolerance = 1e-4;
-    if (surface.moved - moved_at_measure_ > kShapeTolerance * shortest_) {
+    if (surface.odometer - odometer_at_measure_ > kShapeTolerance * shortest_) {
       measure_triangles();
-      moved_at_measure_ = surface.moved;
+      odometer_at_measure_ = surface.odometer;
     }
     revision_ = surface.revision;
   }
@@ -79,7 +81,7 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   // With no axis every direction is as likely: the whole skin counts as both.
   const double whole = std::hypot(skin.tangential, skin.normal);
   const Sweep sweep{c, axis, built_reach_, axis == Vec3{} ? CandidateSkin{whole, 0.0} : skin};
-  const double radius = built_reach_ + whole + surface.moved;
+  const double radius = built_reach_ + whole + surface.displaced;
 
   node.clear();
   triangle.clear();
@@ -99,7 +101,7 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   };
   surface.grid.visit_near(
       c - Vec3{radius, radius, radius}, c + Vec3{radius, radius, radius},
-      [&](const Vec3& centre, double r) { return sweep.may_meet(centre, r + surface.moved, r + surface.moved); }, add);
+      [&](const Vec3& centre, double r) { return sweep.may_meet(centre, r + surface.displaced, r + surface.displaced); }, add);
   for (const Index v : node) local_[at(v)] = -1;
 
   const std::size_t nodes = padded(node.size()), triangles = padded(triangle.size());
@@ -114,7 +116,7 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   built_at_ = c;
   built_axis_ = axis;
   built_skin_ = skin;
-  moved_at_gather_ = moved_at_measure_ = surface.moved;
+  odometer_at_gather_ = odometer_at_measure_ = surface.odometer;
   revision_ = surface.revision;
   ++gatherings_;
 }

@@ -17,7 +17,8 @@ struct SurfaceView {
   const geometry::TriangleMesh& mesh;
   const geometry::TriangleGrid& grid;
   std::uint64_t revision = 0;  ///< changes whenever a vertex moves
-  double moved = 0.0;          ///< bound on the distance that any vertex has moved since the grid was built [m]
+  double odometer = 0.0;       ///< grows by at least as much as any vertex moves [m]
+  double displaced = 0.0;      ///< bound on how far any vertex is from where the grid was built [m]
 };
 
 /// How far a sphere may move before its candidates are gathered again: across the surface, and towards it.
@@ -34,8 +35,10 @@ class MeshCandidates {
  public:
   static constexpr std::size_t kLanes = 8;
 
-  /// Brings the candidates up to date for a sphere at c. Gathers anew when the sphere has left the skin;
-  /// otherwise fetches moved vertices.
+  /// Would an update gather anew (the sphere has left the skin), rather than fetch moved vertices?
+  [[nodiscard]] bool stale(const SurfaceView& surface, const Vec3& c, double reach) const noexcept;
+
+  /// Brings the candidates up to date for a sphere at c: gathers anew when stale, else fetches moved vertices.
   /// @param axis unit vector from c towards the surface (the last contact's), or zero: unknown
   /// @param reach distance from c within which a triangle counts [m]
   void update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach, const CandidateSkin& skin);
@@ -69,7 +72,7 @@ class MeshCandidates {
   bool gathered_ = false, nearly_flat_ = false;
   Vec3 built_at_, built_axis_;
   CandidateSkin built_skin_;
-  double built_reach_ = 0.0, moved_at_gather_ = 0.0, moved_at_measure_ = 0.0, shortest_ = 0.0;
+  double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0;
   std::vector<std::int32_t> local_;        // scratch: local number of a mesh vertex, or -1
 };

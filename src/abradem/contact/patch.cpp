@@ -164,8 +164,6 @@ void PatchEvaluator::deepest_points(const MeshCandidates& candidates, double R) 
   }
 }
 
-namespace {
-
 Patch make_patch(const std::array<double, 4>& sums, double deepest, int triangles, double R,
                  const PairProperties& pair) noexcept {
   const Vec3 G = R * Vec3{sums[0], sums[1], sums[2]};
@@ -179,8 +177,6 @@ Patch make_patch(const std::array<double, 4>& sums, double deepest, int triangle
   patch.triangles = triangles;
   return patch;
 }
-
-}  // namespace
 
 void PatchEvaluator::single(const MeshCandidates& candidates, const Vec3& c, double R,
                             const PairProperties& pair) {

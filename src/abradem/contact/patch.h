@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -37,12 +38,11 @@ class PatchEvaluator {
   }
   /// Integral of g / R over the overlapped part of each candidate triangle, over the triangle's area [-].
   [[nodiscard]] std::span<const double> mean_overlap() const noexcept { return mean_g_; }
-  /// Patch of a candidate triangle (index into the last result) or, where it does not overlap, of the nearest
-  /// overlapped surface; -1 without contact.
-  [[nodiscard]] int patch_of(std::size_t triangle) const noexcept {
-    return clusters_.empty() ? (patches_.empty() ? -1 : 0) : clusters_[triangle];
-  }
-  [[nodiscard]] bool single_patch() const noexcept { return clusters_.empty(); }
+  /// Patch of each candidate triangle (index into the last result, -1: none); empty when there is one patch at
+  /// most.
+  [[nodiscard]] std::span<const int> clusters() const noexcept { return clusters_; }
+  /// No point of a candidate triangle has a larger excess than this.
+  [[nodiscard]] std::span<const double> bound() const noexcept { return bound_; }
 
  private:
   void classify(const MeshCandidates& candidates, const Vec3& c, double R, double limit);
@@ -68,6 +68,11 @@ class PatchEvaluator {
   double deepest_excess_ = 0.0;
   int overlapped_ = 0;
 };
+
+/// The patch of summed integrals: {sum of mean_overlap * area vector, sum of the M-weight * (area vector . c -
+/// plane)}. Without force (triangles = 0) where they do not make a contact.
+[[nodiscard]] Patch make_patch(const std::array<double, 4>& sums, double deepest, int triangles, double R,
+                               const PairProperties& pair) noexcept;
 
 /// Stiffness factor K of F = K sum G_T n_T at an equivalent overlap delta [N/m^3]:
 /// 4 E_eff / (3 pi sqrt(R delta) (1 - 2 delta / 3R)).

@@ -103,8 +103,8 @@ void FootprintIntegrator::select(const MeshCandidates& candidates, const Overlap
 
 template <typename Weight>
 void FootprintIntegrator::integrate(double reach, const Weight& weight) {
-  // Points no further apart than a sixth of the footprint's radius; the sliding averages what is left.
-  constexpr double kPointsPerReach = 6.0;
+  // Points no further apart than a fifth of the footprint's radius; the sliding averages what is left.
+  constexpr double kPointsPerReach = 5.0;
   constexpr int kFinest = 48;
   const double ratio = kPointsPerReach * std::sqrt(longest_) / (2.0 * reach);
   const std::size_t n = shares_.triangle.size();

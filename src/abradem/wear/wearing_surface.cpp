@@ -142,6 +142,7 @@ void WearingSurface::displace(Index v, double distance) noexcept {
   const std::size_t i = at(v);
   watch(v, distance);
   sink_[i] += distance;
+  deepest_sink_ = std::max(deepest_sink_, sink_[i]);
   mesh_.vertices[i] = reference_[i] - sink_[i] * direction_[i];
 }
 
@@ -170,7 +171,7 @@ void WearingSurface::deform_conserving() {
     }
   }
   touched_.clear();
-  moved_ += furthest;
+  odometer_ += furthest;
   ++revision_;
 }
 
@@ -225,7 +226,6 @@ void WearingSurface::close_volume(std::span<const Index> vertices, std::vector<d
 double WearingSurface::deform_paper() {
   if (touched_elements_.empty()) return 0.0;
   std::ranges::sort(touched_elements_);  // the sum at a vertex must not depend on the order of contacts
-  std::vector<Vec3> shift(touched_elements_.size());
   std::vector<std::pair<Index, Vec3>> moves;
   moves.reserve(3 * touched_elements_.size());
   for (const Index t : touched_elements_) {
@@ -253,6 +253,7 @@ double WearingSurface::deform_paper() {
     watch(v, distance);
     furthest = std::max(furthest, distance);
     sink_[at(v)] += distance;
+    deepest_sink_ = std::max(deepest_sink_, sink_[at(v)]);
     mesh_.vertices[at(v)] -= sum;
   }
   double paper_volume = 0.0;  // eq. 10-11 over the elements in contact
@@ -264,7 +265,7 @@ double WearingSurface::deform_paper() {
     pending_element_[at(t)] = 0.0;
   }
   touched_elements_.clear();
-  moved_ += furthest;
+  odometer_ += furthest;
   ++revision_;
   return paper_volume;
 }

@@ -38,8 +38,10 @@ class WearingSurface {
   [[nodiscard]] const geometry::Rows& stars() const noexcept { return stars_; }
   /// Changes whenever a vertex moves.
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
-  /// Bound on how far any vertex has moved in all [m].
-  [[nodiscard]] double moved() const noexcept { return moved_; }
+  /// Odometer of the wear: the sum over updates of the furthest that any vertex moved [m].
+  [[nodiscard]] double odometer() const noexcept { return odometer_; }
+  /// Bound on how far any vertex is from where it started [m].
+  [[nodiscard]] double deepest_sink() const noexcept { return deepest_sink_; }
 
   /// Books wear of one element: `volume` >= 0 [m^3] in all, at0 … at2 of it at its vertices (their sum).
   void deposit(Index triangle, double volume, double at0, double at1, double at2) {
@@ -98,7 +100,7 @@ class WearingSurface {
   std::vector<Index> touched_elements_;
   std::vector<char> open_border_;      // vertex on an open border whose star is not flat
   bool flat_ = true, border_moved_ = false;
-  double swept_by_updates_ = 0.0, moved_ = 0.0;
+  double swept_by_updates_ = 0.0, odometer_ = 0.0, deepest_sink_ = 0.0;
   std::uint64_t revision_ = 1;
   DeformGuards guards_;
 };

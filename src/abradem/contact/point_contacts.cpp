@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/contact/point_contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "abradem/contact/triangle_links.h"
+
+namespace abradem::contact {
+
+namespace {
+
+using geometry::Feature;
+
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+int rank(Feature f) noexcept { return geometry::is_vertex(f) ? 2 : geometry::is_edge(f) ? 1 : 0; }
+
+/// Local vertices that a feature consists of: two of an edge, one of a vertex (twice); none of a face.
+std::array<std::int32_t, 2> feature_vertices(const MeshCandidates& m, const PointContact& p) noexcept {
+  const std::array<std::int32_t, 3> v{m.v0[at(p.triangle)], m.v1[at(p.triangle)], m.v2[at(p.triangle)]};
+  switch (p.feature) {
+    case Feature::edge0: return {v[0], v[1]};
+    case Feature::edge1: return {v[1], v[2]};
+    case Feature::edge2: return {v[2], v[0]};
+    case Feature::vertex0: return {v[0], v[0]};
+    case Feature::vertex1: return {v[1], v[1]};
+    case Feature::vertex2: return {v[2], v[2]};
+    case Feature::face: break;
+  }
+  return {-1, -1};
+}
+
+bool has_vertex(const MeshCandidates& m, std::int32_t t, std::int32_t v) noexcept {
+  return m.v0[at(t)] == v || m.v1[at(t)] == v || m.v2[at(t)] == v;
+}
+
+/// Faces first, then edges, then vertices; the deepest first; the candidates' order last, so that the result
+/// does not depend on anything else.
+bool stronger(const PointContact& a, const PointContact& b) noexcept {
+  return std::tuple(rank(a.feature), -a.overlap, a.triangle) < std::tuple(rank(b.feature), -b.overlap, b.triangle);
+}
+
+}  // namespace
+
+void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R) {
+  touched_.clear();
+  excess_.resize(candidates.node_count());
+  const double inverse = 1.0 / (R * R);
+  for (std::size_t i = 0; i < candidates.node_count(); ++i)
+    excess_[i] = 1.0 - norm2(candidates.node_position(i) - c) * inverse;
+  for (auto* array : {&e0_, &e1_, &e2_, &bound_}) array->resize(candidates.triangle_count());
+  for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
+    e0_[t] = excess_[at(candidates.v0[t])];
+    e1_[t] = excess_[at(candidates.v1[t])];
+    e2_[t] = excess_[at(candidates.v2[t])];
+    bound_[t] = std::max({e0_[t], e1_[t], e2_[t]}) + candidates.longest[t] * inverse / 3.0;
+    if (bound_[t] <= 0.0) continue;  // nowhere inside the ball
+    const auto closest = geometry::closest_point_on_triangle(c, candidates.node_position(at(candidates.v0[t])),
+                                                             candidates.node_position(at(candidates.v1[t])),
+                                                             candidates.node_position(at(candidates.v2[t])));
+    const Vec3 offset = c - closest.point;
+    const double distance = norm(offset);
+    if (distance >= R || distance == 0.0) continue;
+    // A triangle seen from behind belongs to the far side of the solid.
+    if (candidates.ax[t] * offset.x + candidates.ay[t] * offset.y + candidates.az[t] * offset.z < 0.0) continue;
+    const auto local = static_cast<std::int32_t>(t);
+    touched_.push_back({closest.point, offset / distance, R - distance, closest.feature, local, local});
+  }
+}
+
+std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates, const Vec3& c,
+                                                               double R) {
+  collect(candidates, c, R);
+  std::sort(touched_.begin(), touched_.end(), stronger);
+  accepted_.clear();
+  for (const PointContact& p : touched_) {
+    const auto [a, b] = feature_vertices(candidates, p);
+    // Owned by a stronger contact that touches the same feature: a face around it, or itself once more.
+    const bool owned = a >= 0 && std::ranges::any_of(accepted_, [&, a = a, b = b](const PointContact& q) {
+                         return has_vertex(candidates, q.triangle, a) && has_vertex(candidates, q.triangle, b) &&
+                                (q.feature == Feature::face || norm2(q.point - p.point) < 1e-18 * R * R ||
+                                 rank(q.feature) < rank(p.feature));
+                       });
+    if (!owned) accepted_.push_back(p);
+  }
+  return accepted_;
+}
+
+std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates& candidates, const Vec3& c,
+                                                           double R) {
+  collect(candidates, c, R);
+  find_flat_sets(candidates);
+  // Each set's deepest point, strongest sets first.
+  std::vector<PointContact> best;
+  for (PointContact& p : touched_) {
+    p.set = set_[at(p.triangle)];
+    const auto same = std::ranges::find(best, p.set, &PointContact::set);
+    if (same == best.end())
+      best.push_back(p);
+    else if (p.overlap > same->overlap || (p.overlap == same->overlap && stronger(p, *same)))
+      *same = p;
+  }
+  std::sort(best.begin(), best.end(), stronger);
+  accepted_.clear();
+  for (const PointContact& p : best) {
+    const auto [a, b] = feature_vertices(candidates, p);
+    const auto set_holds_feature = [&, a = a, b = b](const PointContact& q) {
+      return std::ranges::any_of(touched_, [&](const PointContact& t) {
+        return t.set == q.set && has_vertex(candidates, t.triangle, a) && has_vertex(candidates, t.triangle, b);
+      });
+    };
+    if (a < 0 || std::ranges::none_of(accepted_, set_holds_feature)) accepted_.push_back(p);
+  }
+  return accepted_;
+}
+
+void PointContactFinder::find_flat_sets(const MeshCandidates& candidates) {
+  constexpr double kCosFlat = 0.99619469809174555;  // 5 degrees
+  set_.assign(candidates.triangle_count(), -1);
+  TriangleLinks links(candidates.triangle_count());
+  for (const PointContact& p : touched_) set_[at(p.triangle)] = p.triangle;
+  for (std::size_t i = 0; i < touched_.size(); ++i)
+    for (std::size_t j = i + 1; j < touched_.size(); ++j) {
+      const auto s = touched_[i].triangle, t = touched_[j].triangle;
+      const int shared = has_vertex(candidates, s, candidates.v0[at(t)]) +
+                         has_vertex(candidates, s, candidates.v1[at(t)]) +
+                         has_vertex(candidates, s, candidates.v2[at(t)]);
+      const double cosine =
+          (candidates.ax[at(s)] * candidates.ax[at(t)] + candidates.ay[at(s)] * candidates.ay[at(t)] +
+           candidates.az[at(s)] * candidates.az[at(t)]) /
+          (candidates.area[at(s)] * candidates.area[at(t)]);
+      if (shared >= 1 && cosine >= kCosFlat) links.join(s, t);
+    }
+  for (const PointContact& p : touched_) set_[at(p.triangle)] = links.root(p.triangle);
+}
+
+}  // namespace abradem::contact

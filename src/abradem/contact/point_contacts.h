@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "abradem/contact/mesh_candidates.h"
+#include "abradem/geometry/closest_point.h"
+
+namespace abradem::contact {
+
+/// One point contact between a sphere and a mesh.
+struct PointContact {
+  Vec3 point;                 ///< nearest point of the surface [m]
+  Vec3 n;                     ///< unit vector from it to the centre
+  double overlap = 0.0;       ///< R - distance, > 0 [m]
+  geometry::Feature feature = geometry::Feature::face;
+  std::int32_t triangle = 0;  ///< local, in the candidates
+  int set = 0;                ///< `resolved`: its connected flat set; otherwise its own number
+};
+
+/// The point-contact rules: what the sphere's ball touches, each feature once, face before edge before vertex.
+/// docs/theory/contact.md#point-contacts
+class PointContactFinder {
+ public:
+  /// Rule `per_triangle`: every triangle whose nearest point lies within R is a contact of its own; a shared edge
+  /// or vertex counts once, and not at all where a triangle around it is touched on its face.
+  std::span<const PointContact> per_triangle(const MeshCandidates& candidates, const Vec3& c, double R);
+
+  /// Rule `resolved`: one contact, the deepest, per connected set of overlapped triangles that lie within 5
+  /// degrees of their neighbours; an edge or vertex of a set that touches another contact's set there is that
+  /// contact. Angles are those of the mesh as it is now.
+  std::span<const PointContact> resolved(const MeshCandidates& candidates, const Vec3& c, double R);
+
+  /// As PatchEvaluator: excess at the corners of each candidate triangle and its bound, from the last call.
+  [[nodiscard]] std::span<const double> corner_excess(int k) const noexcept {
+    return k == 0 ? e0_ : k == 1 ? e1_ : e2_;
+  }
+  [[nodiscard]] std::span<const double> bound() const noexcept { return bound_; }
+
+  /// `resolved`: set of each candidate triangle, or -1 where it is not overlapped.
+  [[nodiscard]] std::span<const int> sets() const noexcept { return set_; }
+
+ private:
+  void collect(const MeshCandidates& candidates, const Vec3& c, double R);
+  void find_flat_sets(const MeshCandidates& candidates);
+
+  std::vector<PointContact> touched_;   // nearest point of every overlapped triangle
+  std::vector<PointContact> accepted_;
+  std::vector<int> set_;
+  std::vector<double> excess_, e0_, e1_, e2_, bound_;
+};
+
+}  // namespace abradem::contact

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/simulation/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "abradem/core/error.h"
+#include "abradem/core/hash.h"
+#include "abradem/core/parallel.h"
+
+namespace abradem::simulation {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+template <typename T>
+int index_of(const std::vector<T>& items, const std::string& name, const char* what) {
+  const auto found = std::ranges::find(items, name, &T::name);
+  if (found == items.end()) throw InputError(fmt::format("there is no {} named '{}'", what, name));
+  return static_cast<int>(found - items.begin());
+}
+
+}  // namespace
+
+double seconds_of(const Duration& duration, double period) {
+  if (!duration.in_revolutions) return duration.value;
+  if (!(period > 0.0))
+    throw InputError("a duration is given in revolutions, but no wall turns or oscillates; give it in seconds");
+  return duration.value * period;
+}
+
+Simulation::Simulation(Setup setup, const MeshSource& source) : setup_(std::move(setup)) {
+  for (const MaterialSetup& m : setup_.materials)
+    materials_.push_back({m.density, m.shear_modulus, m.poisson_ratio});
+  for (const WallSetup& wall : setup_.walls) {
+    walls_.emplace_back(wall, index_of(setup_.materials, wall.material, "material"), source, setup_.run.seed);
+    if (period_ == 0.0) period_ = walls_.back().period().value_or(0.0);
+  }
+  find_pair_properties();
+  add_particles();
+  sphere_walls_.resize(particles_.size() * walls_.size());
+  law_.assign(walls_.size(), 0.0);
+  paper_.assign(walls_.size(), 0.0);
+  choose_time_step();
+  poses_.resize(walls_.size());
+  move_walls();
+}
+
+void Simulation::find_pair_properties() {
+  const std::size_t n = materials_.size();
+  pairs_.assign(n * n, {});
+  std::vector<char> given(n * n, 0);
+  for (const ContactSetup& c : setup_.contacts) {
+    const auto a = static_cast<std::size_t>(index_of(setup_.materials, c.first, "material"));
+    const auto b = static_cast<std::size_t>(index_of(setup_.materials, c.second, "material"));
+    contact::PairProperties p = material::effective_moduli(materials_[a], materials_[b]);
+    p.beta = material::damping_ratio(c.restitution);
+    p.static_friction = c.static_friction;
+    p.rolling_friction = c.rolling_friction;
+    pairs_[a * n + b] = pairs_[b * n + a] = p;
+    given[a * n + b] = given[b * n + a] = 1;
+  }
+  for (const ParticleSetup& particle : setup_.particles)
+    for (const WallSetup& wall : setup_.walls) {
+      const auto a = static_cast<std::size_t>(index_of(setup_.materials, particle.material, "material"));
+      const auto b = static_cast<std::size_t>(index_of(setup_.materials, wall.material, "material"));
+      if (given[a * n + b] == 0)
+        throw InputError(fmt::format("particle '{}' can meet wall '{}', but no [contact.\"{}/{}\"] says how",
+                                     particle.name, wall.name, particle.material, wall.material));
+    }
+  wear_.assign(n * n, 0.0);
+  for (const WearSetup& w : setup_.wear) {
+    const auto a = static_cast<std::size_t>(index_of(setup_.materials, w.abrader, "material"));
+    const auto b = static_cast<std::size_t>(index_of(setup_.materials, w.worn, "material"));
+    wear_[a * n + b] = w.wear_coefficient;
+  }
+}
+
+double Simulation::wear_coefficient(int abrader, int worn) const {
+  return wear_[static_cast<std::size_t>(abrader) * materials_.size() + static_cast<std::size_t>(worn)];
+}
+
+void Simulation::add_particles() {
+  for (const ParticleSetup& p : setup_.particles) {
+    const int m = index_of(setup_.materials, p.material, "material");
+    if (!(p.radius > 0.0)) throw InputError(fmt::format("particle '{}': radius = {} m; must be > 0", p.name, p.radius));
+    const double mass = materials_[static_cast<std::size_t>(m)].density * 4.0 / 3.0 * pi * p.radius * p.radius * p.radius;
+    const bool guided = p.guide == Guide::vertical;
+    const Vec3 along = norm2(p.load) > 0.0 ? normalized(p.load) : Vec3{0.0, 0.0, -1.0};
+    particles_.name.push_back(p.name);
+    particles_.radius.push_back(p.radius);
+    particles_.mass.push_back(mass);
+    particles_.material.push_back(m);
+    particles_.position.push_back(p.position);
+    particles_.velocity.push_back(guided ? dot(p.velocity, along) * along : p.velocity);
+    particles_.spin.push_back(guided ? Vec3{} : p.spin);
+    particles_.load.push_back(p.load);
+    particles_.guide.push_back(guided ? along : Vec3{});
+  }
+  particles_.force.resize(particles_.size());
+  particles_.torque.resize(particles_.size());
+  for (std::size_t i = 0; i < particles_.size(); ++i)
+    for (std::size_t j = i + 1; j < particles_.size(); ++j) sphere_pairs_.push_back({i, j, {}, false});
+}
+
+void Simulation::choose_time_step() {
+  const double every = seconds_of(setup_.output.every, period_);
+  end_ = seconds_of(setup_.run.end, period_);
+  if (!(end_ > 0.0) || !(every > 0.0)) throw InputError("the run's end and the output's interval must be > 0");
+
+  double wanted = setup_.run.time_step.value;
+  if (setup_.run.method == Method::quasi_static) {
+    // Increments of sliding: the fastest slide of any guided particle over any wall.
+    double increment = setup_.run.increment.value_or(0.0), speed = 0.0;
+    for (std::size_t p = 0; p < particles_.size(); ++p)
+      for (const Wall& wall : walls_) {
+        if (particles_.guide[p] == Vec3{} || norm(particles_.load[p]) == 0.0)
+          throw InputError(fmt::format(
+              "method quasi_static: particle '{}' needs guide = \"vertical\" and a load", particles_.name[p]));
+        if (!setup_.run.increment) {
+          const double R = particles_.radius[p];
+          const double a = contact::contact_radius(
+              R, contact::hertz_overlap(pair(particles_.material[p], wall.material()), R, norm(particles_.load[p])));
+          increment = increment == 0.0 ? 0.2 * a : std::min(increment, 0.2 * a);
+        }
+        speed = std::max(speed, norm(wall.pose_at(0.0).velocity_at(particles_.position[p])));
+      }
+    if (!(speed > 0.0)) throw InputError("method quasi_static: no wall slides under a particle");
+    wanted = increment / speed;
+  } else if (setup_.run.time_step.of_rayleigh) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t p = 0; p < particles_.size(); ++p)
+      shortest = std::min(shortest, material::rayleigh_time(materials_[static_cast<std::size_t>(particles_.material[p])],
+                                                            particles_.radius[p]));
+    wanted *= shortest;
+  }
+  if (!(wanted > 0.0) || !std::isfinite(wanted)) throw InputError("the time step must be > 0");
+  // A whole number of steps per output, so that rows fall on whole revolutions.
+  const double first = std::min(every, end_);
+  const double count = std::max(1.0, std::ceil(first / wanted - 1e-9));
+  if (count > 1e15) throw InputError(fmt::format("a time step of {:.3g} s makes {:.3g} steps", wanted, count));
+  steps_per_output_ = static_cast<std::uint64_t>(count);
+  dt_ = first / count;
+  total_steps_ = static_cast<std::uint64_t>(std::llround(end_ / dt_));
+}
+
+double Simulation::revolution() const noexcept { return period_ > 0.0 ? time() / period_ : 0.0; }
+
+void Simulation::step() {
+  move_walls();
+  find_contacts();
+  compute_forces();
+  accumulate_wear();
+  deform_walls();
+  integrate();
+  record();
+}
+
+bool Simulation::advance(const std::function<bool()>& watch) {
+  constexpr std::uint64_t kBetweenLooks = 4096;
+  while (!finished()) {
+    step();
+    if (steps_ % steps_per_output_ == 0 || finished()) return true;
+    if (watch && steps_ % kBetweenLooks == 0 && !watch()) return false;
+  }
+  return true;
+}
+
+void Simulation::move_walls() {
+  for (std::size_t w = 0; w < walls_.size(); ++w) poses_[w] = walls_[w].pose_at(time());
+}
+
+void Simulation::find_contacts() {
+  if (setup_.run.method == Method::quasi_static) {
+    for (std::size_t p = 0; p < particles_.size(); ++p) find_equilibrium(p);
+    return;
+  }
+  core::parallel_for(sphere_walls_.size(), [this](std::size_t k) {
+    const std::size_t p = k / walls_.size(), w = k % walls_.size();
+    const Vec3 c = poses_[w].to_body(particles_.position[p]);
+    const Vec3 v = poses_[w].turn_back(particles_.velocity[p] - poses_[w].velocity_at(particles_.position[p]));
+    sphere_walls_[k].find(walls_[w], c, v, particles_.radius[p], pair(particles_.material[p], walls_[w].material()),
+                          norm(particles_.load[p]), dt_);
+  });
+}
+
+void Simulation::compute_forces() {
+  if (setup_.run.method == Method::quasi_static) return;  // the balance has found them
+  core::parallel_for(particles_.size(), [this](std::size_t p) {
+    Vec3 force = particles_.load[p] + particles_.mass[p] * setup_.run.gravity, torque;
+    const SphereState sphere{particles_.position[p], particles_.velocity[p], particles_.spin[p],
+                             particles_.radius[p], particles_.mass[p]};
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+      const auto f = sphere_walls_[p * walls_.size() + w].compute(
+          walls_[w], poses_[w], sphere, pair(particles_.material[p], walls_[w].material()), dt_);
+      force += f.force;
+      torque += f.torque;
+    }
+    particles_.force[p] = force;
+    particles_.torque[p] = torque;
+  });
+  compute_sphere_pairs();
+}
+
+/// All pairs: for the handful of named particles of a case.
+void Simulation::compute_sphere_pairs() {
+  for (SpherePair& sp : sphere_pairs_) {
+    const auto [i, j] = std::pair(sp.i, sp.j);
+    const Vec3 offset = particles_.position[i] - particles_.position[j];
+    const double R_i = particles_.radius[i], R_j = particles_.radius[j], reach = R_i + R_j;
+    if (norm2(offset) >= reach * reach) {
+      sp.history = {};
+      continue;
+    }
+    const double distance = norm(offset), m_i = particles_.mass[i], m_j = particles_.mass[j];
+    const Vec3 n = offset / distance;
+    const double R_eff = R_i * R_j / reach, m_eff = m_i * m_j / (m_i + m_j), overlap = reach - distance;
+    const contact::PairProperties& properties = pair(particles_.material[i], particles_.material[j]);
+    const Vec3 v = particles_.velocity[i] - particles_.velocity[j] -
+                   cross(R_i * particles_.spin[i] + R_j * particles_.spin[j], n);
+    const contact::ContactState state{n, contact::hertz_force(properties, R_eff, overlap),
+                                      contact::contact_radius(R_eff, overlap), m_eff, v};
+    const contact::ContactForce f = contact::hertz_mindlin(properties, state, dt_, sp.history);
+    const Vec3 force = f.F_n * n + f.F_t;
+    particles_.force[i] += force;
+    particles_.force[j] -= force;
+    const double I_i = 0.4 * m_i * R_i * R_i, I_j = 0.4 * m_j * R_j * R_j;
+    const Vec3 rolling = contact::rolling_torque(properties, R_eff, f.F_n, particles_.spin[i] - particles_.spin[j],
+                                                 I_i * I_j / (I_i + I_j), dt_);
+    particles_.torque[i] += cross(-R_i * n, f.F_t) + rolling;
+    particles_.torque[j] += cross(R_j * n, -f.F_t) - rolling;
+  }
+}
+
+double Simulation::slip_of(const SphereWall::Touch& touch, DeformationRule rule) const noexcept {
+  // The paper wears by |v_t| dt whether the contact sticks or slips; ours by the plastic slip.
+  const bool by_speed = rule == DeformationRule::paper || setup_.run.method == Method::quasi_static;
+  return by_speed ? touch.force.v_t * dt_ : touch.force.slip;
+}
+
+void Simulation::accumulate_wear() {
+  for (std::size_t p = 0; p < particles_.size(); ++p)
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+      Wall& wall = walls_[w];
+      const double alpha_s = wear_coefficient(particles_.material[p], wall.material());
+      if (alpha_s == 0.0) continue;
+      law_[w] += sphere_walls_[p * walls_.size() + w].deposit(
+          wall, alpha_s, particles_.radius[p], pair(particles_.material[p], wall.material()),
+          [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup().deformation); });
+    }
+}
+
+void Simulation::deform_walls() {
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    const WallSetup& setup = walls_[w].setup();
+    if (walls_[w].is_plane() || setup.deformation == DeformationRule::none) continue;
+    wear::WearingSurface& surface = walls_[w].surface();
+    if (setup.deformation == DeformationRule::paper) {
+      paper_[w] += surface.deform_paper();
+    } else if ((steps_ + 1) % static_cast<std::uint64_t>(setup.deform_every) == 0 || steps_ + 1 >= total_steps_ ||
+               (steps_ + 1) % steps_per_output_ == 0) {
+      surface.deform_conserving();
+    }
+    const wear::DeformGuards& guards = surface.guards();
+    if (guards.fatal_steps > 0 || guards.flipped > 0)
+      throw SimulationError(fmt::format(
+          "wall '{}', step {}, {:.6g} s: {} {}: one update of the shape is too deep for the mesh. Lower the wear "
+          "coefficient or spread it over more revolutions, or take a coarser mesh or a shorter step",
+          setup.name, steps_, time(),
+          guards.flipped > 0 ? "wear turned over triangle" : "wear moved by more than half a triangle vertex",
+          guards.flipped > 0 ? guards.worst_triangle : guards.worst_vertex));
+  }
+}
+
+void Simulation::integrate() {
+  if (setup_.run.method == Method::quasi_static) return;
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    Vec3 dv = particles_.force[p] * (dt_ / particles_.mass[p]);
+    const Vec3& guide = particles_.guide[p];
+    if (guide != Vec3{}) {
+      dv = dot(dv, guide) * guide;
+    } else {
+      const double I = 0.4 * particles_.mass[p] * particles_.radius[p] * particles_.radius[p];
+      particles_.spin[p] += particles_.torque[p] * (dt_ / I);
+    }
+    particles_.velocity[p] += dv;
+    particles_.position[p] += particles_.velocity[p] * dt_;
+  }
+}
+
+void Simulation::record() {
+  check_state();
+  watch_stability();
+  ++steps_;
+  if (observer_) observer_(*this);
+}
+
+void Simulation::check_state() const {
+  constexpr double kDeepest = 0.1;  // of the radius: Hertz's small contact is long gone
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    const auto fail = [&](const std::string& what) {
+      throw SimulationError(fmt::format("particle '{}', step {}, {:.6g} s: {}. Shorten the time step, or check the "
+                                        "load, the stiffness and the starting position",
+                                        particles_.name[p], steps_, time(), what));
+    };
+    if (!is_finite(particles_.position[p]) || !is_finite(particles_.velocity[p]))
+      fail("its position or speed is no longer a number");
+    for (std::size_t w = 0; w < walls_.size(); ++w)
+      for (const SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches())
+        if (t.overlap > kDeepest * particles_.radius[p])
+          fail(fmt::format("its overlap with wall '{}' is {:.4g} mm, more than a tenth of its radius",
+                           walls_[w].setup().name, 1e3 * t.overlap));
+  }
+}
+
+ForceSample Simulation::force_on(std::size_t p) const noexcept {
+  ForceSample sample;
+  sample.time = time();
+  Vec3 normal, tangential;
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    const SphereWall& sw = sphere_walls_[p * walls_.size() + w];
+    for (const SphereWall::Touch& t : sw.touches()) {
+      normal += poses_[w].turn(t.force.F_n * t.n);
+      tangential += poses_[w].turn(t.force.F_t);
+      sample.overlap = std::max(sample.overlap, t.overlap);
+    }
+    sample.contacts += sw.elements();
+  }
+  sample.normal = norm(normal);
+  sample.tangential = norm(tangential);
+  return sample;
+}
+
+Ledger Simulation::ledger() {
+  Ledger ledger;
+  double conserving_law = 0.0, conserving_swept = 0.0;
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    const Wall& wall = walls_[w];
+    if (wall.is_plane()) continue;
+    for (std::size_t p = 0; p < particles_.size(); ++p)
+      if (wall.setup().deformation == DeformationRule::conserving)
+        paper_[w] += sphere_walls_[p * walls_.size() + w].take_centroid_volume(wall);
+    const double swept = wall.surface().swept_volume();
+    ledger.law += law_[w];
+    ledger.deposited += wall.surface().deposited_volume();
+    ledger.swept += swept;
+    ledger.paper += paper_[w];
+    if (wall.setup().deformation == DeformationRule::conserving) conserving_law += law_[w], conserving_swept += swept;
+  }
+  if (ledger.law > 0.0) {
+    ledger.residual = std::max(std::abs(ledger.deposited - ledger.law), std::abs(conserving_swept - conserving_law)) /
+                      ledger.law;
+    ledger.kappa = ledger.swept / ledger.law;
+  }
+  return ledger;
+}
+
+std::uint64_t Simulation::state_hash() const {
+  core::StateHash hash;
+  hash.add(steps_);
+  hash.add(dt_);
+  hash.add(std::span<const Vec3>(particles_.position));
+  hash.add(std::span<const Vec3>(particles_.velocity));
+  hash.add(std::span<const Vec3>(particles_.spin));
+  for (const Wall& wall : walls_) {
+    if (wall.is_plane()) continue;
+    hash.add(std::span<const Vec3>(wall.surface().mesh().vertices));
+    hash.add(wall.surface().element_volume());
+  }
+  for (const SphereWall& sw : sphere_walls_) sw.add_to(hash);
+  for (const SpherePair& sp : sphere_pairs_) hash.add(sp.history.s), hash.add(sp.history.a);
+  return hash.value();
+}
+
+double Simulation::kinetic_energy() const noexcept {
+  double energy = 0.0;
+  for (std::size_t p = 0; p < particles_.size(); ++p)
+    energy += 0.5 * particles_.mass[p] * (norm2(particles_.velocity[p]) +
+                                          0.4 * particles_.radius[p] * particles_.radius[p] * norm2(particles_.spin[p]));
+  return energy;
+}
+
+}  // namespace abradem::simulation

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "abradem/contact/hertz_mindlin.h"
+#include "abradem/simulation/setup.h"
+#include "abradem/simulation/sphere_wall.h"
+#include "abradem/simulation/wall.h"
+
+namespace abradem::simulation {
+
+/// Spheres as arrays; SI.
+struct Particles {
+  std::vector<Vec3> position, velocity, spin, force, torque, load, guide;  ///< guide: free direction, or zero
+  std::vector<double> radius, mass;
+  std::vector<int> material;
+  std::vector<std::string> name;
+  [[nodiscard]] std::size_t size() const noexcept { return radius.size(); }
+};
+
+/// What of the material lost is accounted for [m^3].
+struct Ledger {
+  double law = 0.0;        ///< sum of alpha F_n |v_t| dt over the contacts
+  double deposited = 0.0;  ///< booked in the elements
+  double swept = 0.0;      ///< lost by the mesh
+  double paper = 0.0;      ///< eq. 10-12 over the elements in contact
+  /// Largest of |deposited - law| and, where the rule conserves, |swept - law|, over law; 0 without wear.
+  double residual = 0.0;
+  /// swept / law; 0 without wear or with a rigid surface.
+  double kappa = 0.0;
+};
+
+/// The contact forces of one step, summed over the walls, for one particle.
+struct ForceSample {
+  double time = 0.0;         ///< [s]
+  double normal = 0.0;       ///< |sum of F_n n| [N]
+  double tangential = 0.0;   ///< |sum of F_t| [N]
+  double overlap = 0.0;      ///< of the deepest contact [m]
+  int contacts = 0;          ///< elements in contact
+};
+
+/// A limit on the time step: how far the run is from it.
+struct StabilityLimit {
+  std::string name;
+  double value = 0.0;  ///< of the run, in the limit's own unit
+  double limit = 0.0;
+  std::string unit;
+  [[nodiscard]] bool ok() const noexcept { return value <= limit; }
+};
+
+/// A discrete element simulation of spheres on walls that wear.
+///
+///     Simulation run(setup);
+///     while (!run.finished()) run.step();
+///
+/// Same setup, same bits, whatever the number of threads. Not copyable into two that share; movable.
+class Simulation {
+ public:
+  /// @throws InputError, GeometryError for a setup that cannot run
+  explicit Simulation(Setup setup, const MeshSource& source = generate_mesh);
+
+  /// One time step (`dynamic`) or one sliding increment (`quasi_static`).
+  /// The step's chapters: move_walls, find_contacts, compute_forces, accumulate_wear, deform_walls, integrate,
+  /// record (docs/architecture.md).
+  /// @throws SimulationError when the state has left the range the equations hold in
+  void step();
+
+  /// Steps until the next output is due or the run ends. `watch` is called now and then (every few
+  /// milliseconds); where it returns false the run pauses early. Returns true when an output is due.
+  bool advance(const std::function<bool()>& watch = {});
+
+  [[nodiscard]] bool finished() const noexcept { return steps_ >= total_steps_; }
+  [[nodiscard]] double time() const noexcept { return static_cast<double>(steps_) * dt_; }
+  [[nodiscard]] double time_step() const noexcept { return dt_; }
+  [[nodiscard]] std::uint64_t steps() const noexcept { return steps_; }
+  [[nodiscard]] std::uint64_t total_steps() const noexcept { return total_steps_; }
+  [[nodiscard]] std::uint64_t steps_per_output() const noexcept { return steps_per_output_; }
+  /// Turns (cycles) of the first wall that turns (oscillates); 0 where none does.
+  [[nodiscard]] double revolution() const noexcept;
+  [[nodiscard]] bool turns() const noexcept { return period_ > 0.0; }
+
+  [[nodiscard]] const Setup& setup() const noexcept { return setup_; }
+  [[nodiscard]] const Particles& particles() const noexcept { return particles_; }
+  [[nodiscard]] Particles& particles() noexcept { return particles_; }
+  [[nodiscard]] const std::vector<Wall>& walls() const noexcept { return walls_; }
+  [[nodiscard]] const SphereWall& contact(std::size_t particle, std::size_t wall) const {
+    return sphere_walls_[particle * walls_.size() + wall];
+  }
+  [[nodiscard]] Ledger ledger();
+  /// Forces of the last step on particle p.
+  [[nodiscard]] ForceSample force_on(std::size_t p) const noexcept;
+  /// Called after every step; for statistics and series.
+  void on_step(std::function<void(const Simulation&)> observer) { observer_ = std::move(observer); }
+
+  /// Limits known before the run, and after it with what it met (largest stiffness, number of contacts).
+  [[nodiscard]] std::vector<StabilityLimit> limits() const;
+  [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+  /// Hash of everything that the next step depends on.
+  [[nodiscard]] std::uint64_t state_hash() const;
+  /// Kinetic energy of all particles [J].
+  [[nodiscard]] double kinetic_energy() const noexcept;
+
+ private:
+  struct SpherePair {
+    std::size_t i, j;
+    contact::TangentialHistory history;
+    bool touching = false;
+  };
+
+  void add_particles();
+  void choose_time_step();
+  void find_pair_properties();
+  [[nodiscard]] const contact::PairProperties& pair(int a, int b) const {
+    return pairs_[static_cast<std::size_t>(a) * setup_.materials.size() + static_cast<std::size_t>(b)];
+  }
+  [[nodiscard]] double wear_coefficient(int abrader, int worn) const;
+
+  void move_walls();
+  void find_contacts();
+  void compute_forces();
+  void accumulate_wear();
+  void deform_walls();
+  void integrate();
+  void record();
+
+  void compute_sphere_pairs();
+  void find_equilibrium(std::size_t p);
+  [[nodiscard]] double slip_of(const SphereWall::Touch& touch, DeformationRule rule) const noexcept;
+  void check_state() const;
+  void watch_stability();
+
+  Setup setup_;
+  std::vector<material::Material> materials_;
+  std::vector<contact::PairProperties> pairs_;
+  std::vector<double> wear_;  // alpha_s of (abrader, worn)
+  Particles particles_;
+  std::vector<Wall> walls_;
+  std::vector<geometry::Pose> poses_;
+  std::vector<SphereWall> sphere_walls_;  // particle-major
+  std::vector<SpherePair> sphere_pairs_;
+  std::vector<double> law_, paper_;  // per wall [m^3]
+  double dt_ = 0.0, period_ = 0.0, end_ = 0.0;
+  std::uint64_t steps_ = 0, total_steps_ = 0, steps_per_output_ = 1;
+  std::function<void(const Simulation&)> observer_;
+  std::vector<std::string> warnings_;
+  double worst_damping_ = 0.0;  // largest 2 g + W met
+  int most_contacts_ = 0;
+};
+
+/// Resolves a duration to seconds. @throws InputError when it is in revolutions and nothing turns
+[[nodiscard]] double seconds_of(const Duration& duration, double period);
+
+}  // namespace abradem::simulation

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/simulation/sphere_wall.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace abradem::simulation {
+
+namespace {
+
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+/// Mean of a candidate triangle's corners.
+Vec3 centroid(const contact::MeshCandidates& m, std::size_t t) noexcept {
+  return (m.node_position(at(m.v0[t])) + m.node_position(at(m.v1[t])) + m.node_position(at(m.v2[t]))) * (1.0 / 3.0);
+}
+
+}  // namespace
+
+void SphereWall::find(Wall& wall, const Vec3& c, const Vec3& v, double R, const contact::PairProperties& pair,
+                      double load, double dt) {
+  if (wall.is_plane()) {
+    touches_.clear();
+    touch_plane(wall, c, R, pair);
+    return;
+  }
+  // The Hertz footprint reaches down to half its approach below the deepest point, which in a conforming groove
+  // lies outside the ball.
+  const double reach = R + 0.5 * contact::hertz_overlap(pair, R, load);
+  // Skin: some tens of steps of motion, but no more than the patch can hide in.
+  const double v_n = std::abs(dot(v, axis_)), v_t = std::sqrt(std::max(0.0, norm2(v) - v_n * v_n));
+  const contact::CandidateSkin skin{std::clamp(60.0 * v_t * dt, 0.005 * R, 0.1 * R),
+                                    std::clamp(20.0 * v_n * dt, 0.001 * R, 0.1 * R)};
+  const contact::SurfaceView view = wall.view();
+  const bool stale = candidates_.stale(view, c, reach);
+  if (stale || wall.setup().contact != ContactRule::patch) add_centroid_motion(wall);
+  candidates_.update(view, c, axis_, reach, skin);
+  if (stale) note_centroids();
+  touches_.clear();
+  elements_ = 0;
+
+  if (wall.setup().contact == ContactRule::patch) {
+    const auto patches = patches_.evaluate(candidates_, c, R, pair);
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      const contact::Patch& p = patches[i];
+      if (p.triangles == 0) continue;
+      elements_ += p.triangles;
+      touches_.push_back({.n = p.n, .point = c - R * p.n, .overlap = p.overlap, .elastic_force = p.elastic_force,
+                          .a = contact::contact_radius(R, p.overlap), .deepest = p.deepest, .key = -1,
+                          .part = static_cast<int>(i), .force = {}});
+    }
+  } else {
+    const bool resolved = wall.setup().contact == ContactRule::resolved;
+    const auto points = resolved ? points_.resolved(candidates_, c, R) : points_.per_triangle(candidates_, c, R);
+    elements_ = static_cast<int>(points.size());
+    for (const contact::PointContact& p : points)
+      touches_.push_back({.n = p.n, .point = p.point, .overlap = p.overlap,
+                          .elastic_force = contact::hertz_force(pair, R, p.overlap),
+                          .a = contact::contact_radius(R, p.overlap), .deepest = p.overlap,
+                          .key = resolved ? -1 : candidates_.triangle[at(p.triangle)],
+                          .part = resolved ? p.set : p.triangle, .force = {}});
+  }
+  if (!touches_.empty()) axis_ = -touches_.front().n;
+}
+
+void SphereWall::touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
+  const MeshSetup& plane = wall.setup().mesh;
+  const double overlap = R - dot(c - plane.position, plane.normal);
+  if (overlap <= 0.0) return;
+  elements_ = 1;
+  touches_.push_back({.n = plane.normal, .point = c - R * plane.normal, .overlap = overlap,
+                      .elastic_force = contact::hertz_force(pair, R, overlap),
+                      .a = contact::contact_radius(R, overlap), .deepest = overlap, .key = -1, .part = 0,
+                      .force = {}});
+}
+
+/// The memory that continues in this contact: the same element, else the unclaimed contact nearest in place
+/// (per_triangle), or the one that faced most alike, within 25 degrees (patch, resolved). None: a new one.
+contact::TangentialHistory& SphereWall::recall(const Touch& touch, ContactRule rule) {
+  Memory* best = nullptr;
+  double best_score = rule == ContactRule::per_triangle ? -std::numeric_limits<double>::infinity() : 0.9;
+  for (Memory& m : memory_) {
+    if (m.used) continue;
+    const double score = rule != ContactRule::per_triangle ? dot(m.n, touch.n)
+                         : m.key == touch.key              ? std::numeric_limits<double>::infinity()
+                                                           : -norm2(m.point - touch.point);
+    if (score > best_score) best = &m, best_score = score;
+  }
+  kept_.push_back({touch.n, touch.point, touch.key, best != nullptr ? best->history : contact::TangentialHistory{},
+                   false});
+  if (best != nullptr) best->used = true;
+  return kept_.back().history;
+}
+
+ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose, const SphereState& sphere,
+                                   const contact::PairProperties& pair, double dt) {
+  ForceAndTorque total;
+  kept_.clear();
+  kept_.reserve(touches_.size());  // recall hands out references
+  for (Touch& touch : touches_) {
+    const Vec3 n = pose.turn(touch.n);
+    const Vec3 arm = -sphere.radius * n;
+    const Vec3 v = sphere.velocity + cross(sphere.spin, arm) - pose.velocity_at(sphere.position + arm);
+    const contact::ContactState state{touch.n, touch.elastic_force, touch.a, sphere.mass, pose.turn_back(v)};
+    touch.force = contact::hertz_mindlin(pair, state, dt, recall(touch, wall.setup().contact));
+    const Vec3 tangential = pose.turn(touch.force.F_t);
+    total.force += touch.force.F_n * n + tangential;
+    const double I = 0.4 * sphere.mass * sphere.radius * sphere.radius;
+    total.torque += cross(arm, tangential) + contact::rolling_torque(pair, sphere.radius, touch.force.F_n,
+                                                                     sphere.spin - pose.spin, I, dt);
+  }
+  memory_.swap(kept_);
+  return total;
+}
+
+void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R,
+                             const contact::PairProperties& pair) {
+  if (wall.is_plane()) return;
+  wear::WearingSurface& surface = wall.surface();
+  const bool paper = wall.setup().deformation == DeformationRule::paper;
+  if (wall.setup().contact == ContactRule::per_triangle) {
+    const auto t = static_cast<std::size_t>(touch.part);
+    if (paper) {
+      surface.deposit_element(touch.key, dV);
+      return;
+    }
+    const Vec3 a = candidates_.node_position(at(candidates_.v0[t]));
+    const Vec3 e1 = candidates_.node_position(at(candidates_.v1[t])) - a;
+    const Vec3 e2 = candidates_.node_position(at(candidates_.v2[t])) - a;
+    const Vec3 p = touch.point - a;
+    const double d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), det = d11 * d22 - d12 * d12;
+    const double b1 = std::clamp((d22 * dot(p, e1) - d12 * dot(p, e2)) / det, 0.0, 1.0);
+    const double b2 = std::clamp((d11 * dot(p, e2) - d12 * dot(p, e1)) / det, 0.0, 1.0 - b1);
+    surface.deposit(touch.key, dV, dV * (1.0 - b1 - b2), dV * b1, dV * b2);
+    return;
+  }
+
+  std::span<const char> mask;
+  const bool resolved = wall.setup().contact == ContactRule::resolved;
+  const std::span<const int> parts = resolved ? points_.sets() : patches_.clusters();
+  if (!parts.empty()) {
+    mask_.resize(candidates_.triangle_count());
+    for (std::size_t t = 0; t < mask_.size(); ++t) mask_[t] = parts[t] == touch.part;
+    mask = mask_;
+  }
+  const wear::OverlapField field =
+      resolved ? wear::OverlapField{points_.corner_excess(0), points_.corner_excess(1), points_.corner_excess(2),
+                                    points_.bound(), R, touch.deepest}
+               : wear::OverlapField{patches_.corner_excess(0), patches_.corner_excess(1),
+                                    patches_.corner_excess(2), patches_.bound(), R, touch.deepest};
+  const auto& shares =
+      wall.setup().footprint == Footprint::hertz
+          ? footprint_.hertz(candidates_, field, contact::hertz_overlap(pair, R, touch.force.F_n), mask)
+          : footprint_.overlap(candidates_, field, mask);
+  for (std::size_t k = 0; k < shares.triangle.size(); ++k) {
+    const geometry::Index t = candidates_.triangle[at(shares.triangle[k])];
+    if (paper)
+      surface.deposit_element(t, dV * shares.share[k]);
+    else
+      surface.deposit(t, dV * shares.share[k], dV * shares.at0[k], dV * shares.at1[k], dV * shares.at2[k]);
+  }
+}
+
+/// Adds what the centroids of the elements in contact have moved since they were last noted. Under `patch` all
+/// worn elements stay in contact while the candidates last, so once per gathering is enough.
+void SphereWall::add_centroid_motion(const Wall& wall) {
+  if (wall.setup().deformation != DeformationRule::conserving) return;
+  const auto touched = [&](std::size_t t) {
+    if (wall.setup().contact == ContactRule::patch) return patches_.mean_overlap()[t] > 0.0;
+    return std::ranges::any_of(touches_, [&](const Touch& touch) { return touch.part == static_cast<int>(t); });
+  };
+  const geometry::TriangleMesh& mesh = wall.surface().mesh();
+  for (std::size_t t = 0; t < centroid_.size(); ++t) {
+    const geometry::Triangle& v = mesh.triangles[at(candidates_.triangle[t])];
+    const Vec3 now = (mesh.vertices[at(v[0])] + mesh.vertices[at(v[1])] + mesh.vertices[at(v[2])]) * (1.0 / 3.0);
+    if (now != centroid_[t] && touched(t)) centroid_volume_ += norm(now - centroid_[t]) * candidates_.area[t];
+    centroid_[t] = now;
+  }
+}
+
+void SphereWall::note_centroids() {
+  centroid_.resize(candidates_.triangle_count());
+  for (std::size_t t = 0; t < centroid_.size(); ++t) centroid_[t] = centroid(candidates_, t);
+}
+
+void SphereWall::add_to(core::StateHash& hash) const {
+  for (const Memory& m : memory_) hash.add(m.history.s), hash.add(m.history.a);
+}
+
+double SphereWall::take_centroid_volume(const Wall& wall) {
+  if (!wall.is_plane()) add_centroid_motion(wall);
+  const double volume = centroid_volume_;
+  centroid_volume_ = 0.0;
+  return volume;
+}
+
+}  // namespace abradem::simulation

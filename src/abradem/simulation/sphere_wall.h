@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "abradem/contact/patch.h"
+#include "abradem/contact/point_contacts.h"
+#include "abradem/core/hash.h"
+#include "abradem/simulation/wall.h"
+#include "abradem/wear/archard.h"
+#include "abradem/wear/footprint.h"
+
+namespace abradem::simulation {
+
+/// One sphere as a wall sees it: world frame.
+struct SphereState {
+  Vec3 position, velocity, spin;
+  double radius = 0.0, mass = 0.0;
+};
+
+struct ForceAndTorque {
+  Vec3 force, torque;
+};
+
+/// Everything between one sphere and one wall: what it touches, what each contact remembers, the force, and the
+/// wear it leaves. The step calls find, then compute, then deposit.
+class SphereWall {
+ public:
+  /// One contact, in the wall's frame.
+  struct Touch {
+    Vec3 n;                      ///< from the wall to the sphere
+    Vec3 point;                  ///< on the sphere's surface
+    double overlap = 0.0;        ///< [m]
+    double elastic_force = 0.0;  ///< [N]
+    double a = 0.0;              ///< contact radius sqrt(R overlap) [m]
+    double deepest = 0.0;        ///< largest local overlap [m]
+    int key = -1;                ///< per_triangle: mesh triangle
+    int part = 0;                ///< patch or flat set that it stands for
+    contact::ContactForce force;
+  };
+
+  /// Finds the contacts of a sphere at c, in the wall's frame, moving at v there.
+  /// @param load a force of the size to be expected, for the margin of the search [N]
+  void find(Wall& wall, const Vec3& c, const Vec3& v, double R, const contact::PairProperties& pair, double load,
+            double dt);
+
+  /// Forces of the contacts found [world frame], and their histories one step on.
+  ForceAndTorque compute(const Wall& wall, const geometry::Pose& pose, const SphereState& sphere,
+                         const contact::PairProperties& pair, double dt);
+
+  /// Books the wear of one step: law volume of each contact, shared out under it. Returns the law's volume [m^3].
+  /// @param slip_of (Touch) -> sliding distance of this step [m]
+  template <typename SlipOf>
+  double deposit(Wall& wall, double alpha_s, double R, const contact::PairProperties& pair, SlipOf&& slip_of) {
+    double volume = 0.0;
+    for (const Touch& touch : touches_) {
+      const double dV = wear::archard_volume(alpha_s, {std::max(touch.force.F_n, 0.0), slip_of(touch)});
+      if (dV > 0.0) deposit_one(wall, touch, dV, R, pair);
+      volume += dV;
+    }
+    return volume;
+  }
+
+  [[nodiscard]] const std::vector<Touch>& touches() const noexcept { return touches_; }
+  [[nodiscard]] std::vector<Touch>& touches() noexcept { return touches_; }
+  [[nodiscard]] const contact::MeshCandidates& candidates() const noexcept { return candidates_; }
+  /// Elements in contact, counted by the rule.
+  [[nodiscard]] int elements() const noexcept { return elements_; }
+
+  /// Adds what the next step depends on: the contacts' springs.
+  void add_to(core::StateHash& hash) const;
+
+  /// Eq. 10-12 of the paper over the elements in contact, since last asked, where the surface moves by
+  /// `deform_conserving` [m^3].
+  double take_centroid_volume(const Wall& wall);
+
+ private:
+  struct Memory {
+    Vec3 n, point;
+    int key = -1;
+    contact::TangentialHistory history;
+    bool used = false;
+  };
+  void deposit_one(Wall& wall, const Touch& touch, double dV, double R, const contact::PairProperties& pair);
+  void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
+  contact::TangentialHistory& recall(const Touch& touch, ContactRule rule);
+  void add_centroid_motion(const Wall& wall);
+  void note_centroids();
+
+  contact::MeshCandidates candidates_;
+  contact::PatchEvaluator patches_;
+  contact::PointContactFinder points_;
+  wear::FootprintIntegrator footprint_;
+  std::vector<Touch> touches_;
+  std::vector<Memory> memory_, kept_;
+  std::vector<char> mask_;
+  Vec3 axis_;  // towards the surface, from the last contact
+  int elements_ = 0;
+  double centroid_volume_ = 0.0;
+  std::vector<Vec3> centroid_;  // of each candidate when last noted
+};
+
+}  // namespace abradem::simulation

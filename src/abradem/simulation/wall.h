@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "abradem/contact/mesh_candidates.h"
+#include "abradem/geometry/pose.h"
+#include "abradem/geometry/triangle_grid.h"
+#include "abradem/simulation/setup.h"
+#include "abradem/wear/wearing_surface.h"
+
+namespace abradem::simulation {
+
+/// Supplies the mesh of a wall in its own frame [m]; files are the business of whoever calls.
+using MeshSource = std::function<geometry::TriangleMesh(const MeshSetup&, std::uint64_t seed)>;
+
+/// Meshes the generated shapes. @throws InputError for `file` and `plane`, which have none
+[[nodiscard]] geometry::TriangleMesh generate_mesh(const MeshSetup& mesh, std::uint64_t seed);
+
+/// A wall: a surface in its own frame that wears, and a rigid motion that carries it. Particles are brought into
+/// the wall's frame, contact is done there and forces are carried back, so that turning a disc of a million
+/// triangles costs nothing.
+class Wall {
+ public:
+  Wall(const WallSetup& setup, int material, const MeshSource& source, std::uint64_t seed);
+
+  [[nodiscard]] const WallSetup& setup() const noexcept { return setup_; }
+  [[nodiscard]] int material() const noexcept { return material_; }
+  /// Triangulated, or an analytic plane through setup().mesh.position?
+  [[nodiscard]] bool is_plane() const noexcept { return !surface_; }
+  [[nodiscard]] wear::WearingSurface& surface() noexcept { return *surface_; }
+  [[nodiscard]] const wear::WearingSurface& surface() const noexcept { return *surface_; }
+  [[nodiscard]] contact::SurfaceView view() const noexcept;
+
+  /// Pose at a time. Closed form of the time, so that it never drifts.
+  [[nodiscard]] geometry::Pose pose_at(double time) const noexcept;
+  /// Time of one turn or one cycle [s]; none for a wall that does neither.
+  [[nodiscard]] std::optional<double> period() const noexcept;
+
+ private:
+  WallSetup setup_;
+  int material_;
+  std::optional<wear::WearingSurface> surface_;
+  geometry::TriangleGrid grid_;
+};
+
+}  // namespace abradem::simulation
