@@ -208,7 +208,7 @@ class Checker {
       return false;
     }
     constexpr double kMost = 20e6;  // about 4 GB with everything kept per triangle
-    const double triangles = area(m) / (std::numbers::sqrt3 / 4.0 * m.size * m.size);
+    const double triangles = estimated_triangles(m);
     if (triangles > kMost)
       error(path + ".size",
             fmt::format("triangles of {} on {:.4g} mm^2 would be {:.2g} of them, more than the 2e+07 "
@@ -429,6 +429,10 @@ bool Places::good(const std::string& path) const {
 
 void check_case(const Setup& setup, const Places& places, Problems& problems) {
   Checker(setup, places, problems).run();
+}
+
+double estimated_triangles(const MeshSetup& mesh) noexcept {
+  return area(mesh) / (std::numbers::sqrt3 / 4.0 * mesh.size * mesh.size);
 }
 
 bool counts_revolutions(const Setup& setup) noexcept {

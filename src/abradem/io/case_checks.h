@@ -35,6 +35,9 @@ void check_case(const simulation::Setup& setup, const Places& places, Problems& 
 /// Whether some wall turns or oscillates, so that revolutions can be counted.
 [[nodiscard]] bool counts_revolutions(const simulation::Setup& setup) noexcept;
 
+/// How many triangles a generated shape will have, about: its area over that of an equilateral triangle.
+[[nodiscard]] double estimated_triangles(const simulation::MeshSetup& mesh) noexcept;
+
 /// Says why a wall of this extent [m] is probably given in the wrong unit of length, seen from a pin of this
 /// radius [m]; empty where the two go together.
 [[nodiscard]] std::string implausible_extent(std::string_view wall, double extent, std::string_view particle,

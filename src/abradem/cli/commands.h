@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// The commands, each behind plain arguments; main.cpp alone knows the command line. They return the exit
+/// code, or throw an Error that carries it. Results go to stdout, everything else to stderr.
+namespace abradem::cli {
+
+struct RunArguments {
+  std::string case_path;
+  std::string output;  ///< folder; empty: out/<name of the case>
+  std::vector<std::string> overrides;
+  int threads = 0;  ///< 0: as many as the machine has
+  bool force = false, quiet = false, dry_run = false, json = false;
+};
+int run_command(const RunArguments& arguments);
+
+struct CheckArguments {
+  std::string path;
+  std::vector<std::string> overrides;
+};
+/// Reads a case file and says what is wrong with it.
+int check_command(const CheckArguments& arguments);
+
+struct NewArguments {
+  std::string name;  ///< of the template
+  std::string path;  ///< file to write; empty: stdout
+  bool force = false;
+};
+int new_command(const NewArguments& arguments);
+
+/// Prints the schema of the case file. @param format "json" or "md"
+int schema_command(const std::string& format);
+
+/// Version, commit, compiler and flags, a line each.
+[[nodiscard]] std::string version_text();
+
+}  // namespace abradem::cli

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "abradem/cli/commands.h"
+#include "abradem/cli/print.h"
+#include "abradem/cli/templates.h"
+#include "abradem/core/error.h"
+#include "abradem/core/suggest.h"
+#include "abradem/io/case_problems.h"
+
+namespace {
+
+using namespace abradem;
+
+/// What the command line said.
+struct Arguments {
+  cli::RunArguments run;
+  cli::CheckArguments check;
+  cli::NewArguments create;
+  std::string schema_format = "json";
+};
+
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command
+      .add_option("--set", overrides,
+                  "Override a key of the case, as in --set run.end=\"24 s\"; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void declare(CLI::App& app, Arguments& a) {
+  app.set_version_flag(
+      "--version", [] { return cli::version_text(); }, "Print version, commit, compiler and flags");
+  app.require_subcommand(1);
+
+  CLI::App* run = app.add_subcommand("run", "Run a case and write its folder");
+  run->add_option("CASE", a.run.case_path, "Case file (TOML)")->required();
+  run->add_option("-o,--output", a.run.output,
+                  "Folder for everything that comes out (default: out/<name of the case>)")
+      ->type_name("DIR");
+  run->add_flag("--force", a.run.force, "Replace an earlier run in that folder");
+  add_overrides(*run, a.run.overrides);
+  run->add_option("--threads", a.run.threads, "Number of threads (default: as many as the machine has)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  run->add_flag("--quiet", a.run.quiet, "No progress, only warnings and errors");
+  CLI::Option* dry =
+      run->add_flag("--dry-run", a.run.dry_run, "Print the resolved case to stdout and write nothing");
+  run->add_flag("--json", a.run.json, "Print run.json to stdout at the end")->excludes(dry);
+
+  CLI::App* check = app.add_subcommand("check", "Say what is wrong with a case file");
+  check->add_option("CASE", a.check.path, "Case file (TOML)")->required();
+  add_overrides(*check, a.check.overrides);
+
+  std::string names;
+  for (const cli::CaseTemplate& t : cli::case_templates())
+    names += (names.empty() ? "" : ", ") + std::string(t.name);
+  CLI::App* create = app.add_subcommand("new", "Write a commented case file to start from");
+  create->add_option("TEMPLATE", a.create.name, "One of: " + names)->required();
+  create->add_option("FILE", a.create.path, "File to write (default: stdout)");
+  create->add_flag("--force", a.create.force, "Replace the file if it exists");
+
+  CLI::App* schema = app.add_subcommand("schema", "Print every key a case file may have");
+  schema->add_option("--format", a.schema_format, "json: JSON Schema for editors; md: the reference page")
+      ->check(CLI::IsMember({"json", "md"}));
+}
+
+int dispatch(const CLI::App& app, const Arguments& a) {
+  if (app.got_subcommand("run")) return cli::run_command(a.run);
+  if (app.got_subcommand("check")) return cli::check_command(a.check);
+  if (app.got_subcommand("new")) return cli::new_command(a.create);
+  return cli::schema_command(a.schema_format);
+}
+
+/// "did you mean" for a mistyped command or option; empty where nothing is near.
+std::string advice(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> known;
+  const CLI::App* command = &app;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+    known.push_back(sub->get_name());
+    if (argc > 1 && sub->get_name() == argv[1]) command = sub;
+  }
+  std::string word = argc > 1 ? argv[1] : "";
+  if (command != &app) {
+    known.clear();
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    word.clear();
+    for (int i = 2; i < argc && word.empty(); ++i) {
+      const std::string argument = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+      if (argument.starts_with("--") && std::find(known.begin(), known.end(), argument) == known.end())
+        word = argument;
+    }
+  }
+  if (word.empty()) return {};
+  const std::string nearest =
+      core::nearest_spelling(word, std::vector<std::string_view>(known.begin(), known.end()));
+  return nearest.empty() || nearest == word ? std::string{} : fmt::format("; did you mean '{}'?", nearest);
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app("Abradem: discrete element method with walls that wear and change shape", "abradem");
+  Arguments arguments;
+  declare(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    cli::print_message(fmt::format("abradem: error: {}{}\nTry 'abradem --help' or 'abradem COMMAND --help'.",
+                                   error.what(), advice(app, argc, argv)));
+    return static_cast<int>(ExitCode::input);
+  }
+  return dispatch(app, arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const io::CaseError& error) {
+    cli::print_message(error.what());  // already says file, line and column
+    return static_cast<int>(error.code());
+  } catch (const Error& error) {
+    cli::print_message(fmt::format("abradem: error: {}", error.what()));
+    return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    cli::print_message("abradem: error: out of memory; make the mesh coarser or the case smaller");
+    return static_cast<int>(ExitCode::internal);
+  } catch (const std::exception& error) {
+    cli::print_message(
+        fmt::format("abradem: internal error: {}; please report it with the case file", error.what()));
+    return static_cast<int>(ExitCode::internal);
+  } catch (...) {
+    cli::print_message("abradem: internal error of unknown kind; please report it with the case file");
+    return static_cast<int>(ExitCode::internal);
+  }
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/cli/summary.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "abradem/core/units.h"
+#include "abradem/io/case_checks.h"
+
+namespace abradem::cli {
+namespace {
+
+using namespace simulation;
+
+std::string_view name_of(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::none:
+      return "at rest";
+    case MotionKind::rotation:
+      return "turning";
+    case MotionKind::translation:
+      return "moving";
+    case MotionKind::oscillation:
+      return "oscillating";
+  }
+  return {};
+}
+
+std::string shape_of(const MeshSetup& mesh) {
+  if (mesh.shape == MeshShape::plane) return "an analytic plane";
+  if (mesh.shape == MeshShape::file) return mesh.file;
+  return fmt::format("about {:.2g} triangles of {}", io::estimated_triangles(mesh),
+                     core::format_quantity(mesh.size, "mm"));
+}
+
+}  // namespace
+
+std::string summarize(const Setup& setup) {
+  std::string out = setup.title.empty() ? std::string{} : fmt::format("{}\n", setup.title);
+  for (const WallSetup& w : setup.walls)
+    out += fmt::format("  wall '{}' of {}: {}, {}\n", w.name, w.material, shape_of(w.mesh),
+                       name_of(w.motion.kind));
+  for (const ParticleSetup& p : setup.particles)
+    out += fmt::format("  particle '{}' of {}: radius {}, load {:.4g} N{}\n", p.name, p.material,
+                       core::format_quantity(p.radius, "mm"), norm(p.load),
+                       p.guide == Guide::vertical ? ", guided" : "");
+  const Duration& end = setup.run.end;
+  out += fmt::format("  run: {} {}, {}", core::format_number(end.value), end.in_revolutions ? "rev" : "s",
+                     setup.run.method == Method::dynamic ? "dynamic" : "quasi-static");
+  return out;
+}
+
+}  // namespace abradem::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace abradem::test {
+
+/// What the program did.
+struct Outcome {
+  int exit_code = -1;  ///< 128 + n when signal n ended it
+  std::string out, err;
+};
+
+/// Runs the program with these arguments (a shell reads them) in the given folder.
+[[nodiscard]] Outcome run_program(const std::string& arguments, const std::filesystem::path& folder = ".");
+
+/// A folder of its own, removed at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+[[nodiscard]] std::string read_file(const std::filesystem::path& path);
+void write_file(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace abradem::test
