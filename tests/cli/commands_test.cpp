@@ -42,7 +42,7 @@ TEST(Usage, MistakesAreNamedAndEndWithTwo) {
     EXPECT_TRUE(contains(outcome.err, message)) << arguments;
   };
   complains("", "subcommand is required");
-  complains("chek x", "did you mean 'check'?");
+  complains("chek x", "unknown command 'chek'; did you mean 'check'?");
   complains("run", "CASE is required");
   complains("run x --dryrun", "did you mean '--dry-run'?");
   complains("run x --threads 0", "--threads");

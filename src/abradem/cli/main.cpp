@@ -111,8 +111,12 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    const bool unknown = argc > 1 && app.get_subcommands().empty();
+    const std::string what =
+        unknown ? fmt::format("unknown {} '{}'", argv[1][0] == '-' ? "option" : "command", argv[1])
+                : error.what();
     cli::print_message(fmt::format("abradem: error: {}{}\nTry 'abradem --help' or 'abradem COMMAND --help'.",
-                                   error.what(), advice(app, argc, argv)));
+                                   what, advice(app, argc, argv)));
     return static_cast<int>(ExitCode::input);
   }
   return dispatch(app, arguments);

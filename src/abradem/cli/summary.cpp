@@ -30,8 +30,19 @@ std::string_view name_of(MotionKind kind) {
 std::string shape_of(const MeshSetup& mesh) {
   if (mesh.shape == MeshShape::plane) return "an analytic plane";
   if (mesh.shape == MeshShape::file) return mesh.file;
-  return fmt::format("about {:.2g} triangles of {}", io::estimated_triangles(mesh),
+  const double step =
+      std::pow(10.0, std::floor(std::log10(io::estimated_triangles(mesh))) - 1.0);  // two digits
+  return fmt::format("about {:.0f} triangles of {}", std::round(io::estimated_triangles(mesh) / step) * step,
                      core::format_quantity(mesh.size, "mm"));
+}
+
+/// What the first wall that turns or oscillates counts.
+std::string_view unit_of_counting(const Setup& setup) {
+  for (const WallSetup& w : setup.walls) {
+    if (w.motion.kind == MotionKind::rotation) return "revolutions";
+    if (w.motion.kind == MotionKind::oscillation) return "cycles";
+  }
+  return {};
 }
 
 }  // namespace
@@ -46,7 +57,8 @@ std::string summarize(const Setup& setup) {
                        core::format_quantity(p.radius, "mm"), norm(p.load),
                        p.guide == Guide::vertical ? ", guided" : "");
   const Duration& end = setup.run.end;
-  out += fmt::format("  run: {} {}, {}", core::format_number(end.value), end.in_revolutions ? "rev" : "s",
+  out += fmt::format("  run: {} {}, {}", core::format_number(end.value),
+                     end.in_revolutions ? unit_of_counting(setup) : "s",
                      setup.run.method == Method::dynamic ? "dynamic" : "quasi-static");
   return out;
 }
