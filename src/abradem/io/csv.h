@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Tables of numbers as comma-separated text: one header line, a point as decimal mark, lines end in \n.
+/// A column's name ends with its unit (depth_mm); a dimensionless one has none. Numbers have the fewest
+/// digits that read back to the same double; what does not exist is written nan.
+namespace abradem::io {
+
+/// Writes a table row by row. The rows go to a temporary file beside the target, which takes its name at
+/// close(): a reader finds the old table or the whole new one. Without close() nothing stays behind.
+class CsvWriter {
+ public:
+  /// @param columns names: not empty, unique, of letters, digits and _
+  /// @throws InputError for other names, IoError when the file cannot be created
+  CsvWriter(std::filesystem::path path, std::vector<std::string> columns);
+  ~CsvWriter();
+  CsvWriter(const CsvWriter&) = delete;
+  CsvWriter& operator=(const CsvWriter&) = delete;
+
+  /// @throws InputError when the number of values is not that of the columns, IoError when the disk is full
+  void row(std::span<const double> values);
+  void row(std::initializer_list<double> values) {
+    row(std::span<const double>(values.begin(), values.size()));
+  }
+  /// Completes the table. Call once, after which no row can follow.   @throws IoError
+  void close();
+
+ private:
+  [[noreturn]] void fail(const char* doing, int error);
+  void discard() noexcept;
+
+  std::filesystem::path path_, temporary_;
+  std::vector<std::string> columns_;
+  std::FILE* file_ = nullptr;
+  std::string line_;
+};
+
+/// A whole table in memory.
+struct CsvTable {
+  std::vector<std::string> columns;
+  std::vector<double> values;  ///< row by row
+
+  [[nodiscard]] std::size_t rows() const noexcept {
+    return columns.empty() ? 0 : values.size() / columns.size();
+  }
+  [[nodiscard]] std::span<const double> row(std::size_t r) const noexcept {
+    return {values.data() + r * columns.size(), columns.size()};
+  }
+  /// One column's values.   @throws InputError listing the columns when there is none of that name
+  [[nodiscard]] std::vector<double> column(std::string_view name) const;
+};
+
+/// Reads what CsvWriter writes, and refuses all else: no file, no header, names that CsvWriter refuses, a row
+/// of another length, a field that is not one number, a last line without its end (a file cut short).
+/// @throws IoError with file, line and column
+[[nodiscard]] CsvTable read_csv(const std::filesystem::path& path);
+
+}  // namespace abradem::io

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "abradem/analysis/contour.h"
+#include "abradem/analysis/revolution_row.h"
+#include "abradem/io/csv.h"
+
+/// The tables of a run's worn wall, in millimetres, newtons and degrees.   docs/reference/output.md
+namespace abradem::io {
+
+/// revolutions.csv, contours.csv and profiles.csv of one wall. They appear in the folder when closed, each
+/// whole.
+class WearTables {
+ public:
+  /// @param folder exists   @throws IoError when a file cannot be created
+  explicit WearTables(const std::filesystem::path& folder);
+
+  /// One output: its row, and its contours (cut around an axis) as measures and as polylines.   @throws
+  /// IoError
+  void add(const analysis::RevolutionRow& row, std::span<const analysis::Contour> contours);
+
+  /// @throws IoError
+  void close();
+
+ private:
+  CsvWriter revolutions_, contours_, profiles_;
+};
+
+}  // namespace abradem::io
