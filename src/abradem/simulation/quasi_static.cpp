@@ -2,21 +2,28 @@
 // Load control: a guided sphere stands where contact and friction carry its load. docs/theory/quasi-static.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "abradem/core/error.h"
 #include "abradem/simulation/simulation.h"
 
 namespace abradem::simulation {
 
-/// Newton on the height h along the guide: elastic forces plus sliding friction, along the guide, equal the load.
-/// The slope is that of Hertz, S_n (n . guide)^2 summed over the contacts.
+/// Finds the height h along the guide at which elastic forces plus sliding friction carry the load. Secant steps
+/// inside a bracket; the first step takes Hertz's stiffness times the ratio found at the last increment (a
+/// conforming groove is stiffer than the flat it began as).
 void Simulation::find_equilibrium(std::size_t p) {
   constexpr double kTolerance = 1e-10;  // of the load: wear is linear in force, so the ledger's error is smaller
   constexpr int kMostSteps = 400;
   const Vec3 guide = particles_.guide[p];
   const double load = norm(particles_.load[p]) + particles_.mass[p] * dot(setup_.run.gravity, guide);
   const double R = particles_.radius[p];
+  double h = 0.0;                                                // of this search [m], along the guide
+  double low = -std::numeric_limits<double>::infinity(), high = -low;  // too light at low, too heavy at high
+  double last_h = 0.0, last_excess = 0.0;
+  bool has_last = false;
 
   for (int iteration = 0; iteration < kMostSteps; ++iteration) {
     double carried = 0.0, slope = 0.0, approach = 0.0;
@@ -41,10 +48,23 @@ void Simulation::find_equilibrium(std::size_t p) {
     }
     const double excess = carried - load;
     if (std::abs(excess) <= kTolerance * load) return;
-    double move = slope > 0.0 ? -excess / slope : approach;  // along the guide; not in contact yet: come closer
-    const double most = 0.5 * approach;
-    move = std::clamp(move, -most, most);
-    particles_.position[p] += move * guide;
+    (excess < 0.0 ? low : high) = h;
+
+    double move = approach;  // not in contact yet: come closer
+    if (slope > 0.0) {
+      if (has_last && last_excess != excess) {
+        const double secant = (excess - last_excess) / (h - last_h);
+        if (secant > 0.0) stiffness_ratio_[p] = secant / slope;
+      }
+      move = -excess / (slope * stiffness_ratio_[p]);
+      last_h = h, last_excess = excess, has_last = true;
+    }
+    move = std::clamp(move, -0.5 * approach, 0.5 * approach);
+    double next = h + move;
+    if (next <= low || next >= high) next = 0.5 * (low + high);
+    if (next == h) return;  // the bracket is as narrow as numbers are
+    particles_.position[p] += (next - h) * guide;
+    h = next;
   }
   throw SimulationError(fmt::format(
       "particle '{}', step {}: no height was found at which the walls carry its load of {:.4g} N; does it stand "

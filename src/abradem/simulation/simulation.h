@@ -147,6 +147,7 @@ class Simulation {
   std::uint64_t steps_ = 0, total_steps_ = 0, steps_per_output_ = 1;
   std::function<void(const Simulation&)> observer_;
   std::vector<std::string> warnings_;
+  std::vector<double> stiffness_ratio_;  // quasi_static: of each particle's contact, to Hertz's
   double worst_damping_ = 0.0;  // largest 2 g + W met
   int most_contacts_ = 0;
 };
