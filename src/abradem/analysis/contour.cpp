@@ -138,8 +138,7 @@ void order(std::vector<ProfilePoint>& profile) {
   std::ranges::sort(profile, [](const ProfilePoint& a, const ProfilePoint& b) {
     return a.radius < b.radius || (a.radius == b.radius && a.height < b.height);
   });
-  const auto twice = std::ranges::unique(profile);
-  profile.erase(twice.begin(), twice.end());
+  profile.erase(std::unique(profile.begin(), profile.end()), profile.end());
 }
 
 /// One pass over the candidates: each triangle goes to the sections that `sections_of(corners)` names.
