@@ -311,6 +311,8 @@ TEST(UnusableFile, IsOneClearMessage) {
   EXPECT_TRUE(contains(complaint("schema = 1\ntitle = \"x\n"), "case.toml:2:"));
   EXPECT_TRUE(contains(complaint("# only a comment\n"), "missing key 'schema'"));
   EXPECT_TRUE(contains(complaint("schema = 1\nschema = 1\n"), "case.toml:2:"));
+  EXPECT_TRUE(contains(complaint("schema = 1\n[=]\n"), "case.toml:2:2: error: this is not TOML"));
+  EXPECT_TRUE(contains(complaint("[[[x]]]\n"), "case.toml:1:3: error: this is not TOML"));
 }
 
 // ---- values
