@@ -23,7 +23,7 @@ using geometry::RepairRecord;
 std::string millimetres(double metres) { return fmt::format("{:.5g}", 1e3 * metres); }
 
 void row(const char* name, const std::string& value, const char* remark = "") {
-  fmt::print("  {:<28}{:>24}  {}\n", name, value, remark);
+  fmt::print("  {:<28}{:>26}{}{}\n", name, value, *remark != '\0' ? "  " : "", remark);
 }
 
 void count_row(const char* name, geometry::Index count, const char* remark_if_any = "") {

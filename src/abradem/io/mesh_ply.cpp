@@ -51,7 +51,7 @@ struct Header {
 Type type_of(const WordReader& reader, std::string_view word) {
   for (const TypeName& t : kTypes)
     if (word == t.name || word == t.other_name) return t.type;
-  reader.fail(fmt::format("unknown property type '{}'", word.substr(0, 40)));
+  reader.fail(fmt::format("unknown property type '{}'", shown(word)));
 }
 
 Header read_header(const MeshText& text, WordReader& reader) {

@@ -76,8 +76,8 @@ TriangleMesh read_text(const MeshText& text) {
     const std::string_view word = reader.word();
     if (word.empty()) reader.fail(fmt::format("truncated: expected '{}', but the file ends", keyword));
     if (!equals_ignoring_case(word, keyword))
-      reader.fail(fmt::format("expected '{}' after {} whole triangles, found something else", keyword,
-                              mesh.triangles.size()));
+      reader.fail(fmt::format("expected '{}' after {} whole triangles, found '{}'", keyword,
+                              mesh.triangles.size(), shown(word)));
   };
   bool inside = false;
   for (std::string_view word = reader.word(); !word.empty(); word = reader.word()) {
@@ -88,8 +88,8 @@ TriangleMesh read_text(const MeshText& text) {
       continue;
     }
     if (!inside || !equals_ignoring_case(word, "facet"))
-      reader.fail(fmt::format("expected '{}' after {} whole triangles, found something else",
-                              inside ? "facet' or 'endsolid" : "solid", mesh.triangles.size()));
+      reader.fail(fmt::format("expected '{}' after {} whole triangles, found '{}'",
+                              inside ? "facet' or 'endsolid" : "solid", mesh.triangles.size(), shown(word)));
     expect("normal");
     for (int i = 0; i < 3; ++i) reader.word();  // not used, and often not numbers
     expect("outer");

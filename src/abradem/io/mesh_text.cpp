@@ -16,13 +16,6 @@ namespace {
 
 bool is_space(char c) noexcept { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-/// At most 40 printable characters of something that may be binary.
-std::string shown(std::string_view word) {
-  std::string result;
-  for (const char c : word.substr(0, 40)) result += c >= ' ' && c <= '~' ? c : '?';
-  return word.size() > 40 ? result + "…" : result;
-}
-
 template <class Number>
 bool parse(std::string_view word, Number& value) noexcept {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
@@ -31,6 +24,12 @@ bool parse(std::string_view word, Number& value) noexcept {
 }
 
 }  // namespace
+
+std::string shown(std::string_view word) {
+  std::string result;
+  for (const char c : word.substr(0, 40)) result += c >= ' ' && c <= '~' ? c : '?';
+  return word.size() > 40 ? result + "…" : result;
+}
 
 void MeshText::fail(const std::string& what) const {
   throw GeometryError(fmt::format("cannot read mesh '{}': {}", name, what));

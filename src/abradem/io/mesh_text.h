@@ -48,6 +48,9 @@ class WordReader {
   int line_;
 };
 
+/// At most 40 printable characters of something that may be binary, for messages.
+[[nodiscard]] std::string shown(std::string_view word);
+
 [[nodiscard]] bool equals_ignoring_case(std::string_view a, std::string_view b) noexcept;
 
 /// Cuts a polygon into a fan of triangles. @throws GeometryError beyond what Index can number
