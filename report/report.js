@@ -3,8 +3,8 @@
 'use strict';
 (() => {
 const $ = (selector, root = document) => root.querySelector(selector);
-const narrow = () => window.innerWidth < 620;
 let printWidth = 0;  // while printing: the width of a figure on paper [px]
+const narrow = () => !printWidth && window.innerWidth < 620;
 
 // ---------------------------------------------------------------- data blocks
 async function inflate(id, format = 'deflate') {
@@ -70,7 +70,7 @@ function figure(id, draw, file, csv) {
   const entry = { root, draw, file, csv, controls: {} };
   for (const control of root.querySelectorAll('[data-control]')) {
     entry.controls[control.dataset.control] = control;
-    control.addEventListener('change', () => render(entry, control.dataset.control));
+    control.addEventListener('change', () => { drawing = drawing.then(() => render(entry, control.dataset.control)); });
   }
   const link = $('a.csv', root);
   link.setAttribute('download', file);
@@ -85,7 +85,7 @@ function figure(id, draw, file, csv) {
 }
 
 function axis(title, more = {}) {
-  return { title: { text: title, standoff: 8 }, gridcolor: css('--grid'), zeroline: false, linecolor: css('--line'),
+  return { title: { text: title, standoff: 8, font: { size: 13.5 } }, gridcolor: css('--grid'), zeroline: false, linecolor: css('--line'),
            ticks: 'outside', tickcolor: css('--line'), ticklen: 4, automargin: true, ...more };
 }
 
@@ -112,14 +112,19 @@ async function render(entry, changed) {
     plot.replaceChildren(note);
     return;
   }
+  // A colour bar cannot turn from upright to lying in place, so another shape of page means a new plot.
+  if (entry.narrow !== narrow()) Plotly.purge(plot);
+  entry.narrow = narrow();
   await Plotly.react(plot, result.traces, baseLayout(result.layout), {
-    responsive: true, displaylogo: false, showTips: false,
-    modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d', 'hoverClosest3d', 'resetCameraLastSave3d', 'tableRotation'],
+    responsive: true, displaylogo: false, displayModeBar: narrow() ? false : 'hover',
+    modeBarButtons: [result.buttons ?? ['toImage', 'resetScale2d']],
     toImageButtonOptions: { filename: entry.file.replace('.csv', ''), scale: 2 },
   });
 }
 
-async function renderAll() { for (const entry of figures) await render(entry); }
+// One after the other: a change of theme or width may come while the figures are still being drawn.
+let drawing = Promise.resolve();
+const renderAll = () => (drawing = drawing.then(async () => { for (const entry of figures) await render(entry); }));
 
 // A measured range as a shaded band over [from, to].
 function bandTraces(from, to, low, high, name) {
@@ -168,7 +173,7 @@ function surfaceFigure(data, facts, arrays) {
              i: corners[0], j: corners[1], k: corners[2] };
   }
 
-  const defaults = { whole: roundDown(Math.max(1, 0.05 * extent / (facet.max_depth_um / 1000))),
+  const defaults = { whole: roundDown(Math.max(1, 0.03 * extent / (facet.max_depth_um / 1000))),
                      close: roundDown(Math.max(1, 0.45 * bandWidth / (facet.max_depth_um / 1000))) };
   let chosen = null, parts = {};
 
@@ -186,6 +191,7 @@ function surfaceFigure(data, facts, arrays) {
     const z0 = s.z[0], sunk = facet.max_depth_um * chosen / 1000;
     const zr = flat ? [z0 - 1.1 * sunk, z0 + 0.35 * sunk] : range(pz);
     const size = Math.max(xr[1] - xr[0], yr[1] - yr[0]), scale = view === 'whole' ? 1.55 : 1.5;
+    const far = narrow() ? 1.6 : view === 'whole' ? 1.04 : 1;
     const ratio = (r) => scale * (r[1] - r[0]) / size;
     const common = { gridcolor: css('--grid'), linecolor: css('--line'), zeroline: false, showbackground: false, tickfont: { size: 11.5 },
                      showspikes: false, color: css('--muted'), nticks: 5, ticks: 'outside', ticklen: 4, tickcolor: css('--line') };
@@ -206,14 +212,15 @@ function surfaceFigure(data, facts, arrays) {
         margin: { l: 0, r: 0, t: 8, b: narrow() ? 50 : 8 }, uirevision: view, dragmode: 'orbit',
         scene: {
           uirevision: view, dragmode: 'orbit', aspectmode: 'manual', aspectratio: { x: ratio(xr), y: ratio(yr), z: ratio(zr) },
-          camera: view === 'whole' ? { eye: { x: 0, y: -1.25 * (narrow() ? 1.35 : 1), z: 1.15 * (narrow() ? 1.35 : 1) }, center: { x: 0, y: 0, z: -.06 } }
-                                   : { eye: { x: .75 * (narrow() ? 1.4 : 1), y: -1.15 * (narrow() ? 1.4 : 1), z: .8 * (narrow() ? 1.4 : 1) }, center: { x: 0, y: 0, z: -.12 } },
+          camera: view === 'whole' ? { eye: { x: 0, y: -1.12 * far, z: 1.3 * far }, center: { x: 0, y: narrow() ? -.08 : -.05, z: -.02 } }
+                                   : { eye: { x: .6 * far, y: -1.0 * far, z: .85 * far }, center: { x: .03, y: 0, z: -.08 } },
           xaxis: { ...common, title: { text: 'x [mm]' }, range: xr }, yaxis: { ...common, title: { text: 'y [mm]' }, range: yr, nticks: view === 'whole' ? 5 : 3 },
           zaxis: { ...common, ...zAxis, range: zr },
         },
       },
+      buttons: ['toImage', 'zoom3d', 'pan3d', 'orbitRotation', 'resetCameraDefault3d'],
       caption: `The worn band of the wall: ${facet.triangles.toLocaleString('en').replaceAll(',', '\u202f')} of its ${facet.mesh_triangles.toLocaleString('en').replaceAll(',', '\u202f')} triangles`
-             + `${facet.resampled ? ', resampled on a grid' : ''}. Deepest point ${digits(facet.max_depth_um)} µm; depth is drawn ${chosen} times too large. Drag to turn, scroll to zoom.`,
+             + `${facet.resampled ? ', resampled on a grid' : ''}. Deepest point ${digits(facet.max_depth_um)} µm; depth is drawn ${chosen} times too large. Drag to turn, ${narrow() ? 'pinch' : 'scroll'} to zoom.`,
     };
   }
   figure('fig-surface', draw, 'surface.csv', () => {
@@ -304,7 +311,7 @@ function spreadFigure(id, { contours, revolutions }, { column, factor, unit, nou
                     name: 'normal, same mean and sd', line: { color: css('--ink'), width: 1.6 }, hoverinfo: 'skip' });
     }
     const row = revolutions.revolution.lastIndexOf(turn), p = row >= 0 ? revolutions[test][row] : NaN;
-    const verdict = Number.isFinite(p) ? ` χ² test of normality: p = ${digits(p, 2)} [-], ${p < 0.05 ? 'so a normal distribution is rejected' : 'so a normal distribution is not rejected'} at 5 %.` : '';
+    const verdict = Number.isFinite(p) ? ` χ² test of normality: p = ${digits(p, 2)}, ${p < 0.05 ? 'so a normal distribution is rejected' : 'so a normal distribution is not rejected'} at 5 %.` : '';
     return { traces, layout: { bargap: 0.02, xaxis: axis(`${noun} [${unit}]`), yaxis: axis('contours [-]', { rangemode: 'tozero' }),
                                shapes: [{ type: 'line', x0: mean, x1: mean, y0: 0, y1: 1, yref: 'paper', line: { color: css('--ink'), width: 1.2, dash: 'dash' } }] },
              caption: `${n} contours after revolution ${Number(turn.toPrecision(6))}: mean ${digits(mean)} ${unit} (dashed), sd ${digits(sd, 2)} ${unit}.${verdict}` };

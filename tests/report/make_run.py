@@ -181,7 +181,7 @@ def main():
     else:
         points, triangles = ring(options.size, rng)
         for turn in (0, turns):
-            moved = [(r * math.cos(a), r * math.sin(a), -depth_at(a, r, turn, turns)) for r, a in points]
+            moved = [(1e-3 * r * math.cos(a), 1e-3 * r * math.sin(a), -1e-3 * depth_at(a, r, turn, turns)) for r, a in points]  # [m]
             write_vtp(folder / "vtk" / f"disc_{turn:04d}.vtp", moved, triangles)
         entries = "\n".join(f'<DataSet timestep="{2 * t}" part="0" file="vtk/disc_{t:04d}.vtp"/>' for t in (0, turns))
         (folder / "series.pvd").write_text(

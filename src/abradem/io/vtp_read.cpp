@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 #include "abradem/core/error.h"
 
@@ -78,6 +80,21 @@ double parse_number(const Document& document, std::string_view text, std::string
     document.fail(fmt::format("{} is '{}', expected a number", what, text.substr(0, 40)));
   }
   return value;
+}
+
+/// Undoes the entities of an attribute.
+std::string unescaped(std::string_view text) {
+  static constexpr std::pair<std::string_view, char> kEntities[] = {
+      {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}, {"&amp;", '&'}};
+  std::string out;
+  while (!text.empty()) {
+    const auto* entity = std::find_if(std::begin(kEntities), std::end(kEntities), [&](const auto& e) {
+      return text.substr(0, e.first.size()) == e.first;
+    });
+    out += entity == std::end(kEntities) ? text.front() : entity->second;
+    text.remove_prefix(entity == std::end(kEntities) ? 1 : entity->first.size());
+  }
+  return out;
 }
 
 /// Decodes base64 up to its end or a character outside the alphabet. Padding may occur inside: VTK encodes a
@@ -298,9 +315,9 @@ class VtpParser {
     points_ = static_cast<std::size_t>(parse_number(document_, tag["NumberOfPoints"], "NumberOfPoints"));
   }
 
-  VtpArray load(const Tag& tag) const {
+  VtpField load(const Tag& tag) const {
     const BlockReader reader(document_, encoding_);
-    VtpArray out;
+    VtpField out;
     const std::string_view components = tag["NumberOfComponents"];
     if (!components.empty())
       out.components = static_cast<int>(parse_number(document_, components, "NumberOfComponents"));
@@ -333,7 +350,7 @@ class VtpParser {
   }
 
   void store(std::string_view section, const Tag& tag) {
-    const std::string name(tag["Name"]);
+    const std::string name = unescaped(tag["Name"]);
     if (section == "Points") {
       store_points(load(tag));
     } else if (section == "Polys" && name == "connectivity") {
@@ -347,7 +364,7 @@ class VtpParser {
     }
   }
 
-  void store_points(const VtpArray& array) {
+  void store_points(const VtpField& array) {
     if (array.components != 3 || array.values.size() != 3 * points_) {
       document_.fail(fmt::format("Points holds {} numbers, expected 3 for each of the {} points",
                                  array.values.size(), points_));
@@ -389,17 +406,17 @@ class VtpParser {
 
 VtpSurface read_vtp(const std::filesystem::path& file) { return VtpParser(file).read(); }
 
-std::vector<PvdEntry> read_pvd(const std::filesystem::path& file) {
+std::vector<SeriesFrame> read_pvd(const std::filesystem::path& file) {
   const Document document(file);
   if (document.text().find("type=\"Collection\"") == std::string_view::npos) {
     document.fail("is not a ParaView collection; expected <VTKFile type=\"Collection\" …>");
   }
-  std::vector<PvdEntry> out;
+  std::vector<SeriesFrame> out;
   for (Tag tag = document.next(0); !tag.name.empty(); tag = document.next(tag.end)) {
     if (tag.name != "DataSet") continue;
     if (tag["file"].empty()) document.fail(fmt::format("entry {} names no file", out.size() + 1));
     out.push_back({parse_number(document, tag["timestep"], "an entry's timestep"), std::string(tag["part"]),
-                   file.parent_path() / std::string(tag["file"])});
+                   file.parent_path() / unescaped(tag["file"])});
   }
   return out;
 }

@@ -10,15 +10,16 @@
 
 namespace abradem::io {
 
-struct VtpArray {
+struct VtpField {
   int components = 1;
   std::vector<double> values;  ///< components * tuples
 };
 
-/// A triangulated surface as a .vtp file holds it: coordinates in the file's unit, arrays by name.
+/// A triangulated surface as a .vtp file holds it: coordinates in the file's unit (Abradem
+/// writes metres), arrays by name.
 struct VtpSurface {
   geometry::TriangleMesh mesh;
-  std::map<std::string, VtpArray> point_data, cell_data;
+  std::map<std::string, VtpField> point_data, cell_data;
 };
 
 /// Reads an XML PolyData file (VTK file format 0.1, 1.0 or 2.0) with one piece: ascii, binary or appended
@@ -29,7 +30,7 @@ struct VtpSurface {
 [[nodiscard]] VtpSurface read_vtp(const std::filesystem::path& file);
 
 /// One file of a ParaView collection.
-struct PvdEntry {
+struct SeriesFrame {
   double time = 0.0;  ///< as written [s]
   std::string part;
   std::filesystem::path file;  ///< the collection's folder joined
@@ -37,6 +38,6 @@ struct PvdEntry {
 
 /// Reads a .pvd collection, in the order of the file.
 /// @throws IoError when it is missing, is not a collection or an entry names no file
-[[nodiscard]] std::vector<PvdEntry> read_pvd(const std::filesystem::path& file);
+[[nodiscard]] std::vector<SeriesFrame> read_pvd(const std::filesystem::path& file);
 
 }  // namespace abradem::io

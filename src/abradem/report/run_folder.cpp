@@ -39,9 +39,9 @@ struct WallFrames {
   std::filesystem::path first, last;
 };
 
-std::vector<WallFrames> frames_by_wall(const std::vector<io::PvdEntry>& entries) {
+std::vector<WallFrames> frames_by_wall(const std::vector<io::SeriesFrame>& entries) {
   std::vector<WallFrames> walls;
-  for (const io::PvdEntry& entry : entries) {
+  for (const io::SeriesFrame& entry : entries) {
     auto wall = walls.begin();
     while (wall != walls.end() && wall->part != entry.part) ++wall;
     if (wall == walls.end()) {
@@ -53,6 +53,11 @@ std::vector<WallFrames> frames_by_wall(const std::vector<io::PvdEntry>& entries)
   return walls;
 }
 
+/// The frames are in metres.
+void to_millimetres(geometry::TriangleMesh& mesh) {
+  for (Vec3& p : mesh.vertices) p *= 1e3;
+}
+
 void read_surface(RunFolder& run) {
   const std::filesystem::path series = run.folder / "series.pvd";
   std::error_code code;
@@ -62,10 +67,16 @@ void read_surface(RunFolder& run) {
   }
   run.surface_note = "No wall has worn in this run.";
   for (const WallFrames& wall : frames_by_wall(io::read_pvd(series))) {
-    if (wall.first == wall.last) continue;
-    const io::VtpSurface before = io::read_vtp(wall.first);
+    io::VtpSurface before = io::read_vtp(wall.first);
     if (before.mesh.triangles.empty()) continue;
-    std::optional<WornSurface> surface = worn_surface(before.mesh, io::read_vtp(wall.last).mesh);
+    io::VtpSurface after = io::read_vtp(wall.last);
+    to_millimetres(before.mesh);
+    to_millimetres(after.mesh);
+    const auto stated = after.point_data.find("depth_um");
+    const bool usable =
+        stated != after.point_data.end() && stated->second.values.size() == before.mesh.vertices.size();
+    const std::vector<double> depth = usable ? stated->second.values : sunk_um(before.mesh, after.mesh);
+    std::optional<WornSurface> surface = worn_surface(before.mesh, depth);
     if (surface && (!run.surface || surface->max_depth_um > run.surface->max_depth_um))
       run.surface = std::move(surface);
   }

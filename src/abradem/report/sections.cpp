@@ -152,7 +152,7 @@ std::string verdict_cards(const RunFolder& run) {
                Mark::none, ""});
   out +=
       html({"Ledger residual", readable(ledger.residual_relative, 2), "[-]",
-            "Swept against deposited volume. Round-off (below 1e-9) when the deformation conserves volume.",
+            "Swept against deposited volume. Round-off (below 10⁻⁹) when the deformation conserves volume.",
             Mark::none, ""});
   out += html(status_card(run, row));
   return out;

@@ -239,8 +239,7 @@ std::size_t triangles_inside(const TriangleMesh& mesh, const std::vector<bool>& 
 
 }  // namespace
 
-std::optional<WornSurface> worn_surface(const TriangleMesh& before, const TriangleMesh& after,
-                                        std::size_t max_triangles) {
+std::vector<double> sunk_um(const TriangleMesh& before, const TriangleMesh& after) {
   if (before.vertices.size() != after.vertices.size() || before.triangles.size() != after.triangles.size()) {
     throw IoError(fmt::format(
         "the first and the last frame of the worn wall differ: {} and {} vertices, {} and {} triangles; they "
@@ -250,12 +249,18 @@ std::optional<WornSurface> worn_surface(const TriangleMesh& before, const Triang
   }
   const std::vector<Vec3> normals = vertex_normals(before);
   std::vector<double> depth(before.vertices.size());
-  double deepest = 0.0;
   for (std::size_t v = 0; v < depth.size(); ++v) {
     depth[v] = -1e3 * dot(after.vertices[v] - before.vertices[v], normals[v]);
-    if (std::isfinite(depth[v])) deepest = std::max(deepest, depth[v]);
   }
+  return depth;
+}
+
+std::optional<WornSurface> worn_surface(const TriangleMesh& before, const std::vector<double>& depth,
+                                        std::size_t max_triangles) {
+  double deepest = 0.0;
+  for (const double d : depth) deepest = std::isfinite(d) ? std::max(deepest, d) : deepest;
   if (before.triangles.empty() || deepest < 1e-6) return std::nullopt;
+  const std::vector<Vec3> normals = vertex_normals(before);
 
   std::vector<Vec3> worn;
   for (std::size_t v = 0; v < depth.size(); ++v) {

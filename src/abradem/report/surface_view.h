@@ -35,13 +35,18 @@ struct WornSurface {
   std::size_t mesh_triangles = 0;  ///< of the whole wall
 };
 
-/// Compares a wall with what it was before wear and keeps the worn band: where the depth exceeds 1 % of the
-/// largest, widened by a third of its width on each side. A band of more than max_triangles is resampled.
-/// @param before,after same triangles, positions in millimetres
+/// How far each vertex has sunk below the surface before wear, along its normal there [um].
+/// @param before,after the same mesh, positions in millimetres
+/// @throws IoError when the two have different numbers of vertices or triangles
+[[nodiscard]] std::vector<double> sunk_um(const geometry::TriangleMesh& before,
+                                          const geometry::TriangleMesh& after);
+
+/// Keeps the worn band of a wall: where the depth exceeds 1 % of the largest, widened by a third of its width
+/// on each side. A band of more than max_triangles is resampled.
+/// @param before the surface before wear, positions in millimetres   @param depth_um of each vertex
 /// @return nothing when the wall has not worn (largest depth below 1e-6 um) or has no triangle
-/// @throws IoError when the two meshes have different numbers of vertices or triangles
 [[nodiscard]] std::optional<WornSurface> worn_surface(const geometry::TriangleMesh& before,
-                                                      const geometry::TriangleMesh& after,
+                                                      const std::vector<double>& depth_um,
                                                       std::size_t max_triangles = 100000);
 
 }  // namespace abradem::report
