@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Adds the report's page (folder report/) to the library's sources, as code made by embed_report.cmake.
+set(report_page ${PROJECT_BINARY_DIR}/generated/report_page.cpp)
+add_custom_command(
+  OUTPUT ${report_page}
+  COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR}/report -DOUTPUT=${report_page}
+          -P ${PROJECT_SOURCE_DIR}/cmake/embed_report.cmake
+  DEPENDS ${PROJECT_SOURCE_DIR}/report/template.html ${PROJECT_SOURCE_DIR}/report/report.css
+          ${PROJECT_SOURCE_DIR}/report/report.js ${PROJECT_SOURCE_DIR}/report/vendor/plotly/plotly-abradem.min.js
+          ${PROJECT_SOURCE_DIR}/cmake/embed_report.cmake
+  COMMENT "Embedding the report's page"
+  VERBATIM)
+list(APPEND sources ${report_page})

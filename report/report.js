@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws the report's figures from the data blocks of the page. No network, no storage.
+'use strict';
+(() => {
+const $ = (selector, root = document) => root.querySelector(selector);
+let printWidth = 0;  // while printing: the width of a figure on paper [px]
+const narrow = () => !printWidth && window.innerWidth < 620;
+
+// ---------------------------------------------------------------- data blocks
+async function inflate(id, format = 'deflate') {
+  const bytes = Uint8Array.from(atob(document.getElementById(id).textContent), (c) => c.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format));
+  return new Response(stream).arrayBuffer();
+}
+const inflateText = async (id, format) => new TextDecoder().decode(await inflate(id, format));
+
+// Undoes pack() of report.cpp: bytes sorted by significance, differences, a step.
+async function inflateNumbers(name, step) {
+  const bytes = new Uint8Array(await inflate('data-' + name));
+  const n = bytes.length / 4, out = step === 1 ? new Int32Array(n) : new Float32Array(n);
+  let value = 0;
+  for (let k = 0; k < n; ++k) {
+    value = (value + (bytes[k] | bytes[n + k] << 8 | bytes[2 * n + k] << 16 | bytes[3 * n + k] << 24)) | 0;
+    out[k] = value === -2147483648 ? NaN : value * step;
+  }
+  return out;
+}
+
+async function table(name) {
+  const text = await inflateText('data-' + name);
+  const lines = text.trimEnd().split('\n'), names = lines[0].split(',');
+  const columns = Object.fromEntries(names.map((column) => [column, new Float64Array(lines.length - 1)]));
+  for (let row = 1; row < lines.length; ++row) {
+    const fields = lines[row].split(',');
+    names.forEach((column, c) => { columns[column][row - 1] = fields[c] === '' ? NaN : Number(fields[c]); });
+  }
+  return { ...columns, rows: lines.length - 1, csv: text };
+}
+
+// ---------------------------------------------------------------- small tools
+const times = (values, factor) => Array.from(values, (v) => v * factor);
+const unique = (values) => [...new Set(values)].sort((a, b) => a - b);
+const whereEqual = (values, wanted) => { const out = []; values.forEach((v, k) => { if (v === wanted) out.push(k); }); return out; };
+const finite = (values) => values.filter((v) => Number.isFinite(v));
+function largest(values) { let m = -Infinity; for (const v of values) if (v > m) m = v; return m; }
+function smallest(values) { let m = Infinity; for (const v of values) if (v < m) m = v; return m; }
+// Fixed notation with a number of significant digits.
+function digits(value, count = 3) {
+  if (!Number.isFinite(value)) return '–';
+  if (value === 0) return '0';
+  const size = Math.floor(Math.log10(Math.abs(value)));
+  return size < -4 || size > 5 ? value.toExponential(count - 1).replace(/e\+?(-?)(\d+)/, (_, s, e) => ' × 10' + (s ? '⁻' : '') + [...e].map((d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[d]).join(''))
+                               : value.toFixed(Math.max(0, count - 1 - size));
+}
+const kSteps = [1, 2, 5];
+// The largest of 1, 2, 5, 10, … not above a value.
+function roundDown(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return power * kSteps.filter((s) => s * power <= value * (1 + 1e-12)).at(-1);
+}
+
+const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const kDepthScale = [[0, '#f3f0d8'], [.12, '#d7dd9a'], [.3, '#7fbf7b'], [.5, '#35958f'], [.7, '#2b6a8f'], [.86, '#343f84'], [1, '#35175c']];
+
+// ---------------------------------------------------------------- figures
+const figures = [];
+// A figure: draw() gives { traces, layout, caption } or { empty: 'why there is nothing' }.
+function figure(id, draw, file, csv) {
+  const root = document.getElementById(id);
+  const entry = { root, draw, file, csv, controls: {} };
+  for (const control of root.querySelectorAll('[data-control]')) {
+    entry.controls[control.dataset.control] = control;
+    control.addEventListener('change', () => { drawing = drawing.then(() => render(entry, control.dataset.control)); });
+  }
+  const link = $('a.csv', root);
+  link.setAttribute('download', file);
+  link.setAttribute('aria-label', 'Download the data of this figure as CSV');
+  link.addEventListener('click', () => {
+    const url = URL.createObjectURL(new Blob([csv()], { type: 'text/csv' }));
+    link.href = url;
+    setTimeout(() => URL.revokeObjectURL(url), 10000);
+  });
+  figures.push(entry);
+  return entry;
+}
+
+function axis(title, more = {}) {
+  return { title: { text: title, standoff: 8, font: { size: 13.5 } }, gridcolor: css('--grid'), zeroline: false, linecolor: css('--line'),
+           ticks: 'outside', tickcolor: css('--line'), ticklen: 4, automargin: true, ...more };
+}
+
+function baseLayout(more) {
+  return {
+    paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', autosize: !printWidth, ...(printWidth ? { width: printWidth } : {}),
+    font: { family: getComputedStyle(document.body).fontFamily, size: 13, color: css('--ink') },
+    margin: { l: 56, r: narrow() ? 12 : 20, t: 34, b: 48 }, dragmode: narrow() ? false : 'zoom', hovermode: 'closest',
+    hoverlabel: { bgcolor: css('--panel'), bordercolor: css('--line'), font: { color: css('--ink') } },
+    modebar: { bgcolor: 'rgba(0,0,0,0)', color: css('--muted'), activecolor: css('--ink') },
+    legend: { orientation: 'h', x: 0, y: 1.01, xanchor: 'left', yanchor: 'bottom', font: { size: 12.5 } },
+    ...more,
+  };
+}
+
+async function render(entry, changed) {
+  const plot = $('.plot', entry.root), result = entry.draw(entry.controls, changed);
+  $('.words', entry.root).textContent = result.caption ?? '';
+  $('a.csv', entry.root).hidden = Boolean(result.empty);
+  if (result.empty) {
+    const note = document.createElement('p');
+    note.className = 'empty';
+    note.textContent = result.empty;
+    plot.replaceChildren(note);
+    return;
+  }
+  // A colour bar cannot turn from upright to lying in place, so another shape of page means a new plot.
+  if (entry.narrow !== narrow()) Plotly.purge(plot);
+  entry.narrow = narrow();
+  await Plotly.react(plot, result.traces, baseLayout(result.layout), {
+    responsive: true, displaylogo: false, displayModeBar: narrow() ? false : 'hover',
+    modeBarButtons: [result.buttons ?? ['toImage', 'resetScale2d']],
+    toImageButtonOptions: { filename: entry.file.replace('.csv', ''), scale: 2 },
+  });
+}
+
+// One after the other: a change of theme or width may come while the figures are still being drawn.
+let drawing = Promise.resolve();
+const renderAll = () => (drawing = drawing.then(async () => { for (const entry of figures) await render(entry); }));
+
+// A measured range as a shaded band over [from, to].
+function bandTraces(from, to, low, high, name) {
+  const common = { x: [from, to], mode: 'lines', line: { width: 0 }, hoverinfo: 'skip', legendgroup: name };
+  return [{ ...common, y: [low, low], showlegend: false },
+          { ...common, y: [high, high], fill: 'tonexty', fillcolor: css('--band'), name }];
+}
+
+// What the rows are counted in: revolutions, or time where nothing turns.
+function abscissa(revolutions) {
+  const turns = revolutions.revolution;
+  const rises = turns.length < 2 || turns.every((v, k) => k === 0 || v > turns[k - 1]);
+  return rises ? { values: turns, title: 'revolutions [-]', word: 'revolution' }
+               : { values: revolutions.time_s, title: 'time [s]', word: 'output' };
+}
+
+// ---------------------------------------------------------------- the worn surface in 3D
+function surfaceFigure(data, facts, arrays) {
+  const facet = facts.surface;
+  if (!facet) {
+    figure('fig-surface', () => ({ empty: facts.surface_note }), 'surface.csv', () => '');
+    figure('fig-map', () => ({ empty: facts.surface_note }), 'wear-map.csv', () => '');
+    return;
+  }
+  const { x, y, z, nx, ny, nz, depth, i, j, k, map } = arrays;
+  const polar = facet.map.polar, flat = nz.every((v) => v > 0.999) && largest(z) - smallest(z) < 0.002;
+  const v_high = facet.map.v_first + facet.map.v_step * (facet.map.v_count - 1);
+  const bandWidth = polar ? v_high - facet.map.v_first : Math.min(facet.map.u_step * facet.map.u_count, facet.map.v_step * facet.map.v_count);
+  const extent = Math.max(largest(x) - smallest(x), largest(y) - smallest(y));
+
+  // The close-up: a piece about four band widths long, nearest to the reader (towards -y).
+  function closeUp() {
+    const half = 2 * bandWidth, middle = (largest(x) + smallest(x)) / 2;
+    const near = (v) => Math.abs(x[v] - (polar ? 0 : middle)) < half && (!polar || y[v] < 0);
+    const keep = [];
+    for (let t = 0; t < i.length; ++t) if (near(i[t]) && near(j[t]) && near(k[t])) keep.push(t);
+    return keep;
+  }
+  function selection(view) {
+    if (view === 'whole') return { x, y, z, nx, ny, nz, depth, i, j, k };
+    const keep = closeUp(), number = new Map(), source = [];
+    const rename = (v) => { if (!number.has(v)) { number.set(v, source.length); source.push(v); } return number.get(v); };
+    const corners = [i, j, k].map((corner) => keep.map((t) => rename(corner[t])));
+    const pick = (values) => Float32Array.from(source, (v) => values[v]);
+    return { x: pick(x), y: pick(y), z: pick(z), nx: pick(nx), ny: pick(ny), nz: pick(nz), depth: pick(depth),
+             i: corners[0], j: corners[1], k: corners[2] };
+  }
+
+  const defaults = { whole: roundDown(Math.max(1, 0.03 * extent / (facet.max_depth_um / 1000))),
+                     close: roundDown(Math.max(1, 0.45 * bandWidth / (facet.max_depth_um / 1000))) };
+  let chosen = null, parts = {};
+
+  function draw(controls, changed) {
+    const view = controls.view.value;
+    if (changed !== 'exaggeration') chosen = changed === 'view' || chosen === null ? defaults[view] : chosen;
+    else chosen = Number(controls.exaggeration.value);
+    const menu = unique([1, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000].filter((e) => e * facet.max_depth_um / 1000 < extent).concat(chosen));
+    controls.exaggeration.replaceChildren(...menu.map((e) => new Option('× ' + e, e, false, e === chosen)));
+    const s = parts[view] ??= selection(view);
+    const n = s.x.length, sink = (values, normal) => Float32Array.from({ length: n }, (_, v) => values[v] - normal[v] * s.depth[v] * chosen / 1000);
+    const px = sink(s.x, s.nx), py = sink(s.y, s.ny), pz = sink(s.z, s.nz);
+    const range = (values) => { const a = smallest(values), b = largest(values), pad = 0.02 * (b - a) + 1e-6; return [a - pad, b + pad]; };
+    const xr = range(px), yr = range(py);
+    const z0 = s.z[0], sunk = facet.max_depth_um * chosen / 1000;
+    const zr = flat ? [z0 - 1.1 * sunk, z0 + 0.35 * sunk] : range(pz);
+    const size = Math.max(xr[1] - xr[0], yr[1] - yr[0]), scale = view === 'whole' ? 1.55 : 1.5;
+    const far = narrow() ? 1.6 : view === 'whole' ? 1.04 : 1;
+    const ratio = (r) => scale * (r[1] - r[0]) / size;
+    const common = { gridcolor: css('--grid'), linecolor: css('--line'), zeroline: false, showbackground: false, tickfont: { size: 11.5 },
+                     showspikes: false, color: css('--muted'), nticks: 5, ticks: 'outside', ticklen: 4, tickcolor: css('--line') };
+    const step = roundDown(facet.max_depth_um / 1.9), levels = [0];
+    while (levels.length < 6 && levels.at(-1) + step <= facet.max_depth_um * 1.05) levels.push(levels.at(-1) + step);
+    const zAxis = flat ? { title: { text: 'height [µm]' }, tickvals: levels.map((d) => z0 - d * chosen / 1000),
+                           ticktext: levels.map((d) => d === 0 ? '0' : '−' + Number(d.toPrecision(3))) } : { title: { text: 'z [mm]' } };
+    return {
+      traces: [{
+        type: 'mesh3d', x: px, y: py, z: pz, i: s.i, j: s.j, k: s.k, intensity: s.depth, cmin: 0, cmax: facet.max_depth_um,
+        colorscale: kDepthScale, flatshading: false, lighting: { ambient: .78, diffuse: .45, specular: .06, roughness: .9, fresnel: .05 },
+        lightposition: { x: -2000, y: -4000, z: 9000 }, hoverinfo: 'text',
+        text: Array.from(s.depth, (d, v) => `x ${s.x[v].toFixed(2)} mm<br>y ${s.y[v].toFixed(2)} mm<br>depth ${digits(d)} µm`),
+        colorbar: narrow() ? { orientation: 'h', y: -0.02, yanchor: 'top', thickness: 12, len: .9, title: { text: 'depth [µm]', side: 'top' }, outlinewidth: 0, tickfont: { size: 11.5 } }
+                           : { thickness: 14, len: .75, x: 1.0, title: { text: 'depth [µm]', side: 'top' }, outlinewidth: 0, tickfont: { size: 12 } },
+      }],
+      layout: {
+        margin: { l: 0, r: 0, t: 8, b: narrow() ? 50 : 8 }, uirevision: view, dragmode: 'orbit',
+        scene: {
+          uirevision: view, dragmode: 'orbit', aspectmode: 'manual', aspectratio: { x: ratio(xr), y: ratio(yr), z: ratio(zr) },
+          camera: view === 'whole' ? { eye: { x: 0, y: -1.12 * far, z: 1.3 * far }, center: { x: 0, y: narrow() ? -.08 : -.05, z: -.02 } }
+                                   : { eye: { x: .6 * far, y: -1.0 * far, z: .85 * far }, center: { x: .03, y: 0, z: -.08 } },
+          xaxis: { ...common, title: { text: 'x [mm]' }, range: xr }, yaxis: { ...common, title: { text: 'y [mm]' }, range: yr, nticks: view === 'whole' ? 5 : 3 },
+          zaxis: { ...common, ...zAxis, range: zr },
+        },
+      },
+      buttons: ['toImage', 'zoom3d', 'pan3d', 'orbitRotation', 'resetCameraDefault3d'],
+      caption: `The worn band of the wall: ${facet.triangles.toLocaleString('en').replaceAll(',', '\u202f')} of its ${facet.mesh_triangles.toLocaleString('en').replaceAll(',', '\u202f')} triangles`
+             + `${facet.resampled ? ', resampled on a grid' : ''}. Deepest point ${digits(facet.max_depth_um)} µm; depth is drawn ${chosen} times too large. Drag to turn, ${narrow() ? 'pinch' : 'scroll'} to zoom.`,
+    };
+  }
+  figure('fig-surface', draw, 'surface.csv', () => {
+    let text = 'x_mm,y_mm,z_mm,depth_um\n';
+    for (let v = 0; v < x.length; ++v) text += `${x[v].toFixed(3)},${y[v].toFixed(3)},${z[v].toFixed(3)},${depth[v].toFixed(4)}\n`;
+    return text;
+  });
+
+  const m = facet.map, u = Array.from({ length: m.u_count }, (_, c) => m.u_first + c * m.u_step);
+  const v = Array.from({ length: m.v_count }, (_, r) => m.v_first + r * m.v_step);
+  figure('fig-map', () => ({
+    traces: [{
+      type: 'heatmap', x: u, y: v, z: v.map((_, r) => map.subarray(r * m.u_count, (r + 1) * m.u_count)), zmin: 0, zmax: facet.max_depth_um,
+      colorscale: kDepthScale, hoverongaps: false,
+      hovertemplate: polar ? 'angle %{x:.1f}°<br>radius %{y:.3f} mm<br>depth %{z:.3f} µm<extra></extra>' : 'x %{x:.3f} mm<br>y %{y:.3f} mm<br>depth %{z:.3f} µm<extra></extra>',
+      colorbar: narrow() ? { orientation: 'h', y: -.28, yanchor: 'top', thickness: 12, len: 1, title: { text: 'depth [µm]', side: 'top' }, outlinewidth: 0, tickfont: { size: 11.5 } }
+                         : { thickness: 14, len: 1, title: { text: 'depth [µm]', side: 'right' }, outlinewidth: 0 },
+    }],
+    layout: { margin: { l: 60, r: 10, t: 10, b: narrow() ? 110 : 48 },
+              xaxis: axis(polar ? 'angle [°]' : 'x [mm]', { showgrid: false, ...(polar ? { tickvals: [0, 60, 120, 180, 240, 300, 360], range: [0, 360] } : {}) }),
+              yaxis: axis(polar ? 'radius [mm]' : 'y [mm]', { showgrid: false }) },
+    caption: polar ? 'The track unrolled: depth below the unworn surface, every half degree.' : 'Depth below the unworn surface, seen from above.',
+  }), 'wear-map.csv', () => {
+    let text = polar ? 'angle_deg,radius_mm,depth_um\n' : 'x_mm,y_mm,depth_um\n';
+    v.forEach((vv, r) => u.forEach((uu, c) => { const d = map[r * m.u_count + c]; if (!Number.isNaN(d)) text += `${uu.toFixed(3)},${vv.toFixed(4)},${d.toFixed(4)}\n`; }));
+    return text;
+  });
+}
+
+// ---------------------------------------------------------------- volume
+function volumeFigure({ revolutions }, { measured }) {
+  figure('fig-volume', () => {
+    if (!revolutions.rows) return { empty: 'No revolution was completed, so there is no volume to plot.' };
+    const along = abscissa(revolutions), mode = revolutions.rows <= 60 ? 'lines+markers' : 'lines';
+    const curve = (name, column, color, line, symbol) => ({
+      x: along.values, y: revolutions[column], name, mode, line: { color: css(color), ...line }, marker: { color: css(color), symbol, size: 7 },
+      hovertemplate: `${name}<br>${along.word} %{x:.6~g}<br>%{y:.4~g} mm³<extra></extra>` });
+    const traces = [];
+    if (measured.volume_mm3) {
+      const [mean, sd] = measured.volume_mm3, from = Math.min(0, along.values[0]), to = along.values.at(-1);
+      traces.push(...bandTraces(from, to, mean - sd, mean + sd, `measured, ${digits(mean)} ± ${digits(sd, 2)} mm³`));
+    }
+    traces.push(curve('mesh', 'swept_volume_mm3', '--s1', { width: 4 }, 'circle'),
+                curve('law', 'law_volume_mm3', '--s2', { width: 1.8, dash: 'dash' }, 'diamond-open'));
+    if (finite(Array.from(revolutions.paper_volume_mm3)).length)
+      traces.push(curve('paper\u2019s measure', 'paper_volume_mm3', '--s4', { width: 1.8, dash: 'dot' }, 'square-open'));
+    return { traces, layout: { xaxis: axis(along.title, { rangemode: 'tozero' }), yaxis: axis('wear volume [mm³]', { rangemode: 'tozero' }) },
+             caption: 'Mesh: what the wall lost. Law: the sum of α F v dt. Paper\u2019s measure: its equations 10 to 12 over the elements in contact.'
+                    + (measured.volume_mm3 ? ' The band is the laboratory\u2019s mean and one standard deviation.' : '') };
+  }, 'revolutions.csv', () => revolutions.csv);
+}
+
+// ---------------------------------------------------------------- contours
+function profileFigure({ profiles }, { thinned }) {
+  const turns = unique(profiles.revolution);
+  const menu = $('#fig-profiles [data-control="revolution"]');
+  menu.replaceChildren(...turns.map((t) => new Option(digits(t, 1 + Math.floor(Math.log10(Math.max(1, t)))), t, false, t === turns.at(-1))));
+  figure('fig-profiles', (controls) => {
+    if (!profiles.rows) return { empty: 'The run recorded no contours.' };
+    const rows = whereEqual(profiles.revolution, Number(controls.revolution.value));
+    const angles = unique(rows.map((r) => profiles.angle_deg[r]));
+    const traces = angles.map((angle, n) => {
+      const mine = rows.filter((r) => profiles.angle_deg[r] === angle).sort((a, b) => profiles.radius_mm[a] - profiles.radius_mm[b]);
+      return { x: mine.map((r) => profiles.radius_mm[r]), y: mine.map((r) => 1000 * profiles.height_mm[r]), name: `${Number(angle.toFixed(1))}°`,
+               mode: 'lines', line: { color: css('--s' + (n % 8 + 1)), width: 1.7, dash: n < 8 ? 'solid' : 'dash' },
+               hovertemplate: `${Number(angle.toFixed(1))}°<br>radius %{x:.3f} mm<br>height %{y:.3f} µm<extra></extra>` };
+    });
+    return { traces, layout: { uirevision: 'profiles', xaxis: axis('radius [mm]'), yaxis: axis('height [µm]') },
+             caption: 'Cuts across the track, height greatly exaggerated against radius.' + (thinned.profiles ? ' Some revolutions are left out here; tables/profiles.csv has all.' : '') };
+  }, 'profiles.csv', () => profiles.csv);
+}
+
+// ---------------------------------------------------------------- distributions
+function spreadFigure(id, { contours, revolutions }, { column, factor, unit, noun, test, color }) {
+  const turn = contours.rows ? largest(contours.revolution) : NaN;
+  const values = finite(whereEqual(contours.revolution, turn).map((r) => factor * contours[column][r]));
+  figure(id, () => {
+    if (values.length < 2) return { empty: 'The run recorded no contours.' };
+    const n = values.length, mean = values.reduce((a, b) => a + b, 0) / n;
+    const sd = Math.sqrt(values.reduce((a, b) => a + (b - mean) ** 2, 0) / (n - 1));
+    const low = smallest(values), high = largest(values);
+    const count = Math.max(5, Math.round(1.2 * Math.sqrt(n))), step = high > low ? (high - low) / count : Math.max(1e-6, 1e-3 * Math.abs(high));
+    const traces = [{ type: 'histogram', x: values, xbins: { start: low, end: high + 1e-9 * step + (high > low ? 0 : step), size: step }, autobinx: false, name: 'contours',
+                      marker: { color: css(color), opacity: .75, line: { color: css('--paper'), width: 1 } }, hovertemplate: `%{x} ${unit}<br>%{y} contours<extra></extra>` }];
+    if (sd > 0) {
+      const xs = Array.from({ length: 121 }, (_, s) => mean + sd * (s / 20 - 3));
+      traces.push({ x: xs, y: xs.map((v) => n * step * Math.exp(-0.5 * ((v - mean) / sd) ** 2) / (sd * Math.sqrt(2 * Math.PI))), mode: 'lines',
+                    name: 'normal, same mean and sd', line: { color: css('--ink'), width: 1.6 }, hoverinfo: 'skip' });
+    }
+    const row = revolutions.revolution.lastIndexOf(turn), p = row >= 0 ? revolutions[test][row] : NaN;
+    const verdict = Number.isFinite(p) ? ` χ² test of normality: p = ${digits(p, 2)}, ${p < 0.05 ? 'so a normal distribution is rejected' : 'so a normal distribution is not rejected'} at 5 %.` : '';
+    return { traces, layout: { bargap: 0.02, xaxis: axis(`${noun} [${unit}]`), yaxis: axis('contours [-]', { rangemode: 'tozero' }),
+                               shapes: [{ type: 'line', x0: mean, x1: mean, y0: 0, y1: 1, yref: 'paper', line: { color: css('--ink'), width: 1.2, dash: 'dash' } }] },
+             caption: `${n} contours after revolution ${Number(turn.toPrecision(6))}: mean ${digits(mean)} ${unit} (dashed), sd ${digits(sd, 2)} ${unit}.${verdict}` };
+  }, 'contours.csv', () => contours.csv);
+}
+
+function growthFigure(id, { revolutions }, { mean, sd, low, high, factor, unit, noun, color, range }) {
+  figure(id, () => {
+    if (!revolutions.rows) return { empty: 'No revolution was completed.' };
+    const along = abscissa(revolutions), x = along.values;
+    const middle = times(revolutions[mean], factor), spread = times(revolutions[sd], factor);
+    const traces = [];
+    if (range) traces.push(...bandTraces(Math.min(0, x[0]), x.at(-1), range[0], range[1], `measured, ${digits(range[0], 2)} to ${digits(range[1], 2)} ${unit}`));
+    const quiet = { mode: 'lines', line: { width: 0 }, hoverinfo: 'skip' };
+    traces.push({ ...quiet, x, y: middle.map((v, k) => v - spread[k]), showlegend: false },
+                { ...quiet, x, y: middle.map((v, k) => v + spread[k]), fill: 'tonexty', fillcolor: css('--s1-band'), name: '± 1 sd' },
+                { x, y: middle, name: 'mean', mode: revolutions.rows <= 60 ? 'lines+markers' : 'lines', line: { color: css('--s1'), width: 2.2 }, marker: { size: 6 },
+                  hovertemplate: `${along.word} %{x:.6~g}<br>mean %{y:.4~g} ${unit}<extra></extra>` });
+    const limit = (column, name) => ({ x, y: times(revolutions[column], factor), name, mode: 'lines', line: { color: css('--muted'), width: 1, dash: 'dot' },
+                                       hovertemplate: `${along.word} %{x:.6~g}<br>${name} %{y:.4~g} ${unit}<extra></extra>` });
+    if (low) traces.push({ ...limit(high, 'largest'), name: 'smallest, largest', legendgroup: 'limits' }, { ...limit(low, 'smallest'), showlegend: false, legendgroup: 'limits' });
+    return { traces, layout: { xaxis: axis(along.title, { rangemode: 'tozero' }), yaxis: axis(`${noun} [${unit}]`, { rangemode: 'tozero' }) },
+             caption: `${noun[0].toUpperCase()}${noun.slice(1)} over all contours of each ${along.word}.` };
+  }, 'revolutions.csv', () => revolutions.csv);
+}
+
+// ---------------------------------------------------------------- forces
+function boxFigure({ force }) {
+  const whole = force.revolution.every((r) => Number.isInteger(r));
+  const turn = Array.from(force.revolution, (r) => whole ? r : Math.max(1, Math.ceil(r - 1e-9)));
+  figure('fig-boxes', () => {
+    if (!force.rows) return { empty: 'The run recorded no forces.' };
+    const all = unique(turn), most = narrow() ? 14 : 36;
+    const shown = all.length <= most ? all : Array.from({ length: most }, (_, k) => all[Math.round(k * (all.length - 1) / (most - 1))]);
+    const wanted = new Set(shown), x = [], y = [];
+    turn.forEach((t, r) => { if (wanted.has(t)) { x.push(String(t)); y.push(force.normal_force_N[r]); } });
+    return { traces: [{ type: 'box', x, y, boxpoints: 'outliers', line: { color: css('--s1'), width: 1.3 }, fillcolor: css('--s1-band'), name: '',
+                        marker: { color: css('--s1'), size: 3, opacity: .6 }, showlegend: false }],
+             layout: { margin: { l: 56, r: 12, t: 12, b: 48 }, boxgap: .35, xaxis: axis('revolution [-]', { type: 'category', showgrid: false }), yaxis: axis('normal force [N]') },
+             caption: 'Boxes: quartiles and median. Whiskers: the farthest samples within 1.5 times the box. Points: outliers.'
+                    + (shown.length < all.length ? ` ${shown.length} of ${all.length} revolutions, evenly spread.` : '') };
+  }, 'force.csv', () => force.csv);
+}
+
+function forceFigure({ force }, { thinned }) {
+  figure('fig-force', (controls) => {
+    if (!force.rows) return { empty: 'The run recorded no forces.' };
+    const curve = (column, name, unit, color) => ({ x: force.time_s, y: force[column], name, mode: 'lines', line: { color: css(color), width: 1.1 },
+                                                    hovertemplate: `%{x:.5~g} s<br>%{y:.4~g} ${unit}<extra>${name}</extra>` });
+    const quantity = { force: ['force [N]', curve('normal_force_N', 'normal', 'N', '--s1'), curve('tangential_force_N', 'tangential', 'N', '--s2')],
+                       overlap: ['overlap [µm]', curve('overlap_um', 'overlap', 'µm', '--s3')],
+                       contacts: ['contacts [-]', curve('contacts', 'contacts', '[-]', '--s4')] }[controls.quantity.value];
+    return { traces: quantity.slice(1), layout: { xaxis: axis('time [s]'), yaxis: axis(quantity[0], controls.quantity.value === 'contacts' ? { rangemode: 'tozero' } : {}) },
+             caption: 'The recorded samples of the contact' + (thinned.force ? ', thinned for this page; tables/force.csv has all that were recorded.' : '.') };
+  }, 'force.csv', () => force.csv);
+}
+
+// ---------------------------------------------------------------- start
+async function start() {
+  if (typeof DecompressionStream === 'undefined') throw new Error('this browser is too old to unpack the figures (it needs DecompressionStream, 2023 or newer)');
+  const facts = JSON.parse(await inflateText('data-facts'));
+  const data = {};
+  for (const name of ['revolutions', 'contours', 'profiles', 'force']) data[name] = await table(name);
+  const arrays = {}, steps = facts.surface;
+  if (steps) {
+    for (const name of ['x', 'y', 'z']) arrays[name] = await inflateNumbers(name, steps.position_step);
+    for (const name of ['nx', 'ny', 'nz']) arrays[name] = await inflateNumbers(name, steps.normal_step);
+    for (const name of ['depth', 'map']) arrays[name] = await inflateNumbers(name, steps.depth_step);
+    for (const name of ['i', 'j', 'k']) arrays[name] = await inflateNumbers(name, 1);
+  }
+  const code = document.createElement('script');
+  code.textContent = await inflateText('charts', 'gzip') + '\nwindow.Plotly = Plotly;';
+  document.head.append(code);
+
+  surfaceFigure(data, facts, arrays);
+  volumeFigure(data, facts);
+  profileFigure(data, facts);
+  spreadFigure('fig-depth-spread', data, { column: 'depth_mm', factor: 1000, unit: 'µm', noun: 'depth', test: 'depth_p_chi2', color: '--s1' });
+  spreadFigure('fig-width-spread', data, { column: 'width_mm', factor: 1, unit: 'mm', noun: 'width', test: 'width_p_chi2', color: '--s1' });
+  growthFigure('fig-depth-growth', data, { mean: 'depth_mean_mm', sd: 'depth_sd_mm', low: 'depth_min_mm', high: 'depth_max_mm', factor: 1000, unit: 'µm', noun: 'depth', range: facts.measured.depth_um });
+  growthFigure('fig-width-growth', data, { mean: 'width_mean_mm', sd: 'width_sd_mm', factor: 1, unit: 'mm', noun: 'width', range: facts.measured.width_mm });
+  boxFigure(data);
+  forceFigure(data, facts);
+  await renderAll();
+
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', renderAll);
+  matchMedia('(max-width: 619px)').addEventListener('change', renderAll);
+  // Paper is white and about 700 px wide.
+  addEventListener('beforeprint', () => { document.documentElement.dataset.theme = 'light'; printWidth = 690; renderAll(); });
+  addEventListener('afterprint', () => { delete document.documentElement.dataset.theme; printWidth = 0; renderAll(); });
+  document.documentElement.dataset.ready = 'yes';
+}
+
+start().catch((error) => {
+  const box = $('#trouble');
+  box.hidden = false;
+  box.textContent = `The figures could not be drawn: ${error.message}.`;
+  document.documentElement.dataset.ready = 'failed';
+  console.error(error);
+});
+})();

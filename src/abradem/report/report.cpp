@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/report/report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "abradem/core/error.h"
+#include "abradem/report/page_source.h"
+#include "abradem/report/sections.h"
+#include "abradem/report/text.h"
+
+namespace abradem::report {
+namespace {
+
+// What a figure can show and a page of a few megabytes can hold.
+constexpr std::size_t kMaxContourRows = 40000;
+constexpr std::size_t kMaxProfileRows = 40000;
+constexpr std::size_t kMaxForceRows = 20000;
+
+/// Resolution of the coordinates in the page.
+constexpr double kPositionStep_mm = 1e-3;
+constexpr double kNormalStep = 1e-4;
+constexpr double kDepthStep_um = 1e-4;
+constexpr std::int32_t kMissing = std::numeric_limits<std::int32_t>::min();
+
+/// Packs numbers as multiples of a step: differences of neighbours, their bytes sorted by significance, which
+/// zlib then packs well. NaN becomes kMissing.
+template <class Number>
+std::string pack(const std::vector<Number>& values, double step) {
+  const std::size_t n = values.size();
+  std::string bytes(4 * n, '\0');
+  std::uint32_t previous = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double multiple = static_cast<double>(values[k]) / step;
+    const std::int32_t whole =
+        std::isfinite(multiple) ? static_cast<std::int32_t>(std::lround(multiple)) : kMissing;
+    const std::uint32_t difference = static_cast<std::uint32_t>(whole) - previous;
+    previous = static_cast<std::uint32_t>(whole);
+    for (std::size_t b = 0; b < 4; ++b) bytes[b * n + k] = static_cast<char>((difference >> (8 * b)) & 0xffu);
+  }
+  return bytes;
+}
+
+std::string block(std::string_view name, std::string_view bytes) {
+  return fmt::format("<script type=\"application/octet-stream\" id=\"data-{}\">{}</script>\n", name,
+                     base64(deflate(bytes)));
+}
+
+/// The surface's arrays and, for the page's script, the steps they are multiples of.
+std::string surface_blocks(const WornSurface& surface) {
+  const SurfaceView& view = surface.view;
+  std::string out;
+  out += block("x", pack(view.x_mm, kPositionStep_mm)) + block("y", pack(view.y_mm, kPositionStep_mm));
+  out += block("z", pack(view.z_mm, kPositionStep_mm));
+  out += block("nx", pack(view.nx, kNormalStep)) + block("ny", pack(view.ny, kNormalStep));
+  out += block("nz", pack(view.nz, kNormalStep));
+  out += block("depth", pack(view.depth_um, kDepthStep_um));
+  out += block("i", pack(view.i, 1.0)) + block("j", pack(view.j, 1.0)) + block("k", pack(view.k, 1.0));
+  return out + block("map", pack(surface.map.depth_um, kDepthStep_um));
+}
+
+std::string surface_json(const RunFolder& run) {
+  if (!run.surface) return "null";
+  const WornSurface& s = *run.surface;
+  return fmt::format(
+      R"({{"position_step":{},"normal_step":{},"depth_step":{},"max_depth_um":{},"resampled":{},"triangles":{},"mesh_triangles":{},)"
+      R"("map":{{"polar":{},"u_first":{},"u_step":{},"u_count":{},"v_first":{},"v_step":{},"v_count":{}}}}})",
+      json_number(kPositionStep_mm), json_number(kNormalStep), json_number(kDepthStep_um),
+      json_number(s.max_depth_um), s.view.resampled, s.view.i.size(), s.mesh_triangles, s.map.polar,
+      json_number(s.map.u_first), json_number(s.map.u_step), s.map.u_count, json_number(s.map.v_first),
+      json_number(s.map.v_step), s.map.v_count);
+}
+
+std::string band_json(const std::optional<Band>& band, double scale) {
+  return band ? fmt::format("[{},{}]", json_number(scale * band->low), json_number(scale * band->high))
+              : "null";
+}
+
+/// What the script has to know beside the tables.
+std::string facts_json(const RunFolder& run, bool contours_thinned, bool profiles_thinned,
+                       bool force_thinned) {
+  const Measurement& lab = run.manifest.measurement;
+  const std::string volume = lab.wear_volume_mm3
+                                 ? fmt::format("[{},{}]", json_number(lab.wear_volume_mm3->mean),
+                                               json_number(lab.wear_volume_mm3->sd))
+                                 : "null";
+  return fmt::format(
+      R"({{"measured":{{"volume_mm3":{},"depth_um":{},"width_mm":{}}},"surface":{},"surface_note":{},)"
+      R"("thinned":{{"contours":{},"profiles":{},"force":{}}}}})",
+      volume, band_json(lab.depth_mm, 1e3), band_json(lab.width_mm, 1.0), surface_json(run),
+      json_string(run.surface_note), contours_thinned, profiles_thinned, force_thinned);
+}
+
+std::string data_blocks(const RunFolder& run) {
+  const Table contours = thin_revolutions(run.contours, kMaxContourRows);
+  const Table profiles = thin_revolutions(run.profiles, kMaxProfileRows);
+  const Table force = thin_rows(run.force, kMaxForceRows);
+  std::string out =
+      block("facts", facts_json(run, contours.rows() < run.contours.rows(),
+                                profiles.rows() < run.profiles.rows(), force.rows() < run.force.rows()));
+  out += block("revolutions", to_csv(run.revolutions)) + block("contours", to_csv(contours));
+  out += block("profiles", to_csv(profiles)) + block("force", to_csv(force));
+  if (run.surface) out += surface_blocks(*run.surface);
+  return out;
+}
+
+/// Fills the {{name}} places of the template in one pass, so that text of the case is never taken for a
+/// place.
+std::string fill(std::string_view page, const std::map<std::string, std::string, std::less<>>& places) {
+  std::string out;
+  while (true) {
+    const std::size_t open = page.find("{{");
+    const std::size_t close = open == std::string_view::npos ? open : page.find("}}", open);
+    if (close == std::string_view::npos) return out.append(page);
+    out.append(page.substr(0, open));
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    const auto place = places.find(name);
+    if (place == places.end())
+      throw Error(ExitCode::internal, fmt::format("report template names '{}', which nothing fills", name));
+    out += place->second;
+    page.remove_prefix(close + 2);
+  }
+}
+
+/// A file that appears whole or not at all; a temporary of a failed write is removed.
+void write_whole(const std::filesystem::path& file, const std::string& content) {
+  std::filesystem::path temporary = file;
+  temporary += ".part";
+  std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+  stream << content;
+  stream.close();
+  std::error_code code;
+  if (stream) std::filesystem::rename(temporary, file, code);
+  if (!stream || code) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw IoError(
+        fmt::format("{}: cannot be written ({:.1f} MB); check the folder's permissions and the free space",
+                    file.string(), static_cast<double>(content.size()) / 1e6));
+  }
+}
+
+}  // namespace
+
+std::string make_page(const RunFolder& run) {
+  return fill(page_template(), {{"title", escape_html(page_title(run))},
+                                {"style", std::string(page_style())},
+                                {"verdict", escape_html(verdict(run))},
+                                {"cards", verdict_cards(run)},
+                                {"ledger", ledger_table(run)},
+                                {"limits", limits_and_warnings(run)},
+                                {"inputs", inputs(run)},
+                                {"record", record_table(run)},
+                                {"data", data_blocks(run)},
+                                {"charts", base64(page_charts_gzip())},
+                                {"script", std::string(page_script())}});
+}
+
+std::filesystem::path write_report(const std::filesystem::path& run_folder) {
+  const std::filesystem::path page = run_folder / "report.html";
+  write_whole(page, make_page(read_run_folder(run_folder)));
+  return page;
+}
+
+}  // namespace abradem::report

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/report/run_folder.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include "abradem/core/error.h"
+#include "abradem/io/vtp_read.h"
+
+namespace abradem::report {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array kRevolutions = {
+    "revolution"sv,    "time_s"sv,        "law_volume_mm3"sv, "swept_volume_mm3"sv, "paper_volume_mm3"sv,
+    "depth_mean_mm"sv, "depth_sd_mm"sv,   "depth_min_mm"sv,   "depth_max_mm"sv,     "width_mean_mm"sv,
+    "width_sd_mm"sv,   "area_mean_mm2"sv, "force_mean_N"sv,   "force_sd_N"sv,       "force_min_N"sv,
+    "force_max_N"sv,   "depth_p_chi2"sv,  "width_p_chi2"sv};
+constexpr std::array kContours = {"revolution"sv, "angle_deg"sv, "depth_mm"sv, "width_mm"sv, "area_mm2"sv};
+constexpr std::array kProfiles = {"revolution"sv, "angle_deg"sv, "radius_mm"sv, "height_mm"sv};
+constexpr std::array kForce = {"time_s"sv,     "revolution"sv, "normal_force_N"sv, "tangential_force_N"sv,
+                               "overlap_um"sv, "contacts"sv};
+
+std::string read_case(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw IoError(fmt::format("{}: no such file; every run writes it into its output folder", file.string()));
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The frames of one wall: its first file and its last.
+struct WallFrames {
+  std::string part;
+  std::filesystem::path first, last;
+};
+
+std::vector<WallFrames> frames_by_wall(const std::vector<io::SeriesFrame>& entries) {
+  std::vector<WallFrames> walls;
+  for (const io::SeriesFrame& entry : entries) {
+    auto wall = walls.begin();
+    while (wall != walls.end() && wall->part != entry.part) ++wall;
+    if (wall == walls.end()) {
+      walls.push_back({entry.part, entry.file, entry.file});
+    } else {
+      wall->last = entry.file;
+    }
+  }
+  return walls;
+}
+
+/// The frames are in metres.
+void to_millimetres(geometry::TriangleMesh& mesh) {
+  for (Vec3& p : mesh.vertices) p *= 1e3;
+}
+
+void read_surface(RunFolder& run) {
+  const std::filesystem::path series = run.folder / "series.pvd";
+  std::error_code code;
+  if (!std::filesystem::exists(series, code)) {
+    run.surface_note = "The run wrote no frames of the surface (there is no series.pvd).";
+    return;
+  }
+  run.surface_note = "No wall has worn in this run.";
+  for (const WallFrames& wall : frames_by_wall(io::read_pvd(series))) {
+    io::VtpSurface before = io::read_vtp(wall.first);
+    if (before.mesh.triangles.empty()) continue;
+    io::VtpSurface after = io::read_vtp(wall.last);
+    to_millimetres(before.mesh);
+    to_millimetres(after.mesh);
+    const auto stated = after.point_data.find("depth_um");
+    const bool usable =
+        stated != after.point_data.end() && stated->second.values.size() == before.mesh.vertices.size();
+    const std::vector<double> depth = usable ? stated->second.values : sunk_um(before.mesh, after.mesh);
+    std::optional<WornSurface> surface = worn_surface(before.mesh, depth);
+    if (surface && (!run.surface || surface->max_depth_um > run.surface->max_depth_um))
+      run.surface = std::move(surface);
+  }
+}
+
+}  // namespace
+
+RunFolder read_run_folder(const std::filesystem::path& folder) {
+  std::error_code code;
+  if (!std::filesystem::is_directory(folder, code)) {
+    throw IoError(fmt::format("{}: no such folder; expected the output folder of a run", folder.string()));
+  }
+  RunFolder run;
+  run.folder = folder;
+  run.manifest = read_manifest(folder / "run.json");
+  run.resolved_case = read_case(folder / "case.resolved.toml");
+  const std::filesystem::path tables = folder / "tables";
+  run.revolutions = read_table(tables / "revolutions.csv", kRevolutions);
+  run.contours = read_table(tables / "contours.csv", kContours);
+  run.profiles = read_table(tables / "profiles.csv", kProfiles);
+  run.force = read_table(tables / "force.csv", kForce);
+  read_surface(run);
+  return run;
+}
+
+}  // namespace abradem::report

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "abradem/report/manifest.h"
+#include "abradem/report/surface_view.h"
+#include "abradem/report/table.h"
+
+namespace abradem::report {
+
+/// What a run left in its output folder, read and checked.
+struct RunFolder {
+  std::filesystem::path folder;
+  Manifest manifest;
+  std::string resolved_case;  ///< case.resolved.toml, as it stands
+  Table revolutions, contours, profiles, force;
+  std::optional<WornSurface> surface;
+  std::string surface_note;  ///< why there is no surface, when there is none
+};
+
+/// Reads run.json, case.resolved.toml, the four tables and, from series.pvd, the first and the last frame of
+/// the wall that wore most. A run that wrote no frames, or no wear, has no surface, which is no error.
+/// @throws IoError when a file is missing or damaged
+[[nodiscard]] RunFolder read_run_folder(const std::filesystem::path& folder);
+
+}  // namespace abradem::report

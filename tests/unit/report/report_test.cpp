@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/report/report.h"
+
+#include "abradem/report/sections.h"
+#include "run_fixture.h"
+
+namespace abradem::report {
+namespace {
+
+using Report = RunFixture;
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(Report, IsOnePageThatLoadsNothing) {
+  const std::filesystem::path page = write_report(folder_);
+  EXPECT_EQ(page, folder_ / "report.html");
+  const std::string html = read_text(page);
+  EXPECT_TRUE(has(html, "<!DOCTYPE html>"));
+  EXPECT_TRUE(has(html, "default-src 'none'"));
+  for (const char* link : {" src=\"http", "href=\"http", "@import", "url("}) EXPECT_FALSE(has(html, link)) << link;
+  EXPECT_FALSE(has(html, "{{"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "report.html.part"));
+}
+
+TEST_F(Report, TextOfTheCaseIsNeverMarkup) {
+  const std::string html = make_page(read_run_folder(folder_));
+  EXPECT_TRUE(has(html, "<title>A &amp; B &lt;script&gt;alert(1)&lt;/script&gt;</title>"));
+  EXPECT_TRUE(has(html, "&lt;/pre&gt;&lt;script&gt;alert(2)"));
+  EXPECT_FALSE(has(html, "<script>alert"));
+}
+
+TEST_F(Report, PlacesOfTheTemplateInTheCaseStayText) {
+  write_text(folder_ / "run.json", manifest(R"("case_title": "{{charts}}",)"));
+  EXPECT_TRUE(has(make_page(read_run_folder(folder_)), "<h1>{{charts}}</h1>"));
+}
+
+TEST_F(Report, IsTheSameBytesEachTime) {
+  write_report(folder_);
+  const std::string first = read_text(folder_ / "report.html");
+  write_report(folder_);
+  EXPECT_EQ(read_text(folder_ / "report.html"), first);
+}
+
+TEST_F(Report, ComparesWithTheLaboratory) {
+  write_text(folder_ / "run.json",
+             manifest(R"("measurement": {"wear_volume_mm3": {"mean": 0.565, "sd": 0.089}, "depth_mm": {"low": 0.007, "high": 0.014},
+                         "width_mm": {"low": 0.5, "high": 0.7}, "revolutions": 1302.5},)"));
+  const std::string cards = verdict_cards(read_run_folder(folder_));
+  EXPECT_TRUE(has(cards, "below the measured range"));
+  EXPECT_TRUE(has(cards, "inside the measured range"));
+  EXPECT_TRUE(has(cards, "above the measured range"));
+  EXPECT_TRUE(has(cards, "Laboratory: 0.565 ± 0.089 mm³, after 1302.5 rev"));
+  EXPECT_TRUE(has(cards, "Laboratory: 7.0 to 14 µm"));
+}
+
+TEST_F(Report, StatesLimitsWarningsAndTheWholeSeed) {
+  write_text(folder_ / "run.json",
+             manifest(R"("limits": [{"name": "overlap", "value": 0.2, "limit": "10 %", "ok": false}], "warnings": ["<b>"],)"));
+  const RunFolder run = read_run_folder(folder_);
+  EXPECT_TRUE(has(limits_and_warnings(run), "exceeded"));
+  EXPECT_TRUE(has(limits_and_warnings(run), "<li>&lt;b&gt;</li>"));
+  EXPECT_TRUE(has(record_table(run), "18446744073709551615"));
+}
+
+TEST_F(Report, NamesTheFolderWhenTheRunHasNoTitle) {
+  write_text(folder_ / "run.json", manifest(""));
+  EXPECT_EQ(page_title(read_run_folder(folder_)), "Run in " + folder_.filename().string());
+  EXPECT_EQ(page_title(read_run_folder(folder_ / "")), "Run in " + folder_.filename().string());
+}
+
+TEST_F(Report, EachMissingFileIsNamed) {
+  for (const char* name : {"run.json", "case.resolved.toml", "tables/revolutions.csv", "tables/contours.csv",
+                           "tables/profiles.csv", "tables/force.csv"}) {
+    const std::string content = read_text(folder_ / name);
+    std::filesystem::remove(folder_ / name);
+    const std::string message = io_error([&] { write_report(folder_); });
+    EXPECT_TRUE(has(message, (folder_ / name).string() + ": no such file")) << name << ": " << message;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "report.html"));
+    write_text(folder_ / name, content);
+  }
+}
+
+TEST_F(Report, AMissingFolderIsNamed) {
+  EXPECT_TRUE(has(io_error([&] { write_report(folder_ / "none"); }), "none: no such folder"));
+}
+
+TEST_F(Report, ADamagedManifestIsExplained) {
+  write_text(folder_ / "run.json", "{\"status\": ");
+  EXPECT_TRUE(has(io_error([&] { write_report(folder_); }), "run.json: not valid JSON at byte"));
+  write_text(folder_ / "run.json", "[]");
+  EXPECT_TRUE(has(io_error([&] { write_report(folder_); }), "expected an object"));
+  write_text(folder_ / "run.json", "{\"status\": \"completed\", \"exit_code\": \"none\"}");
+  EXPECT_TRUE(has(io_error([&] { write_report(folder_); }), "key 'exit_code' is \"none\", expected a whole number"));
+  std::string text = manifest("");
+  text.replace(text.find("\"kappa\": 1.0"), 12, "\"kapa\": 1.0");
+  write_text(folder_ / "run.json", text);
+  EXPECT_TRUE(has(io_error([&] { write_report(folder_); }), "key 'ledger.kappa' is missing"));
+}
+
+TEST_F(Report, ADamagedSeriesIsAnErrorAndNoSeriesIsNot) {
+  EXPECT_TRUE(has(read_run_folder(folder_).surface_note, "no frames"));
+  write_text(folder_ / "series.pvd", "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"vtk/a.vtp\"/>");
+  EXPECT_TRUE(has(io_error([&] { (void)read_run_folder(folder_); }), "a.vtp: no such file"));
+}
+
+TEST_F(Report, AnUnwritablePageIsNamed) {
+  std::filesystem::create_directories(folder_ / "report.html.part");
+  EXPECT_TRUE(has(io_error([&] { write_report(folder_); }), "report.html: cannot be written"));
+}
+
+}  // namespace
+}  // namespace abradem::report
