@@ -180,7 +180,9 @@ std::size_t least_bytes(const Element& element, bool is_text) {
   return bytes;
 }
 
-std::int64_t read_list_count(Body& body, const Property& p) {
+/// How many numbers of a property follow: one, or the length of the list.
+std::int64_t read_count(Body& body, const Property& p) {
+  if (!p.count_type) return 1;
   const std::int64_t count = body.integer(*p.count_type, "the length of a list");
   body.require_room(count, body.is_text() ? 2 : size_of(p.type), fmt::format("a list '{}'", p.name));
   return count;
@@ -205,7 +207,7 @@ void read_vertices(const MeshText& text, const Element& element, Body& body, Tri
   for (std::int64_t i = 0; i < element.count; ++i) {
     for (std::size_t k = 0; k < targets.size(); ++k) {
       const Property& property = element.properties[k];
-      std::int64_t count = property.count_type ? read_list_count(body, property) : 1;
+      std::int64_t count = read_count(body, property);
       for (; count > 0; --count) {
         const double value = body.number(property.type);
         if (targets[k] != nullptr) *targets[k] = value;
@@ -225,7 +227,7 @@ void read_faces(const MeshText& text, const Element& element, Body& body, Triang
   std::vector<Index> corners;
   for (std::int64_t i = 0; i < element.count; ++i)
     for (const Property& property : element.properties) {
-      const std::int64_t count = property.count_type ? read_list_count(body, property) : 1;
+      const std::int64_t count = read_count(body, property);
       corners.clear();
       for (std::int64_t k = 0; k < count; ++k) {
         if (!is_corners(property)) {
@@ -246,7 +248,7 @@ void read_faces(const MeshText& text, const Element& element, Body& body, Triang
 void skip_rows(const Element& element, Body& body) {
   for (std::int64_t i = 0; i < element.count; ++i)
     for (const Property& property : element.properties) {
-      std::int64_t count = property.count_type ? read_list_count(body, property) : 1;
+      std::int64_t count = read_count(body, property);
       for (; count > 0; --count) (void)body.number(property.type);
     }
 }
