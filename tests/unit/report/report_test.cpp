@@ -17,7 +17,8 @@ TEST_F(Report, IsOnePageThatLoadsNothing) {
   const std::string html = read_text(page);
   EXPECT_TRUE(has(html, "<!DOCTYPE html>"));
   EXPECT_TRUE(has(html, "default-src 'none'"));
-  for (const char* link : {" src=\"http", "href=\"http", "@import", "url("}) EXPECT_FALSE(has(html, link)) << link;
+  for (const char* link : {" src=\"http", "href=\"http", "@import", "url("})
+    EXPECT_FALSE(has(html, link)) << link;
   EXPECT_FALSE(has(html, "{{"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "report.html.part"));
 }
@@ -42,8 +43,10 @@ TEST_F(Report, IsTheSameBytesEachTime) {
 }
 
 TEST_F(Report, ComparesWithTheLaboratory) {
-  write_text(folder_ / "run.json",
-             manifest(R"("measurement": {"wear_volume_mm3": {"mean": 0.565, "sd": 0.089}, "depth_mm": {"low": 0.007, "high": 0.014},
+  write_text(
+      folder_ / "run.json",
+      manifest(
+          R"("measurement": {"wear_volume_mm3": {"mean": 0.565, "sd": 0.089}, "depth_mm": {"low": 0.007, "high": 0.014},
                          "width_mm": {"low": 0.5, "high": 0.7}, "revolutions": 1302.5},)"));
   const std::string cards = verdict_cards(read_run_folder(folder_));
   EXPECT_TRUE(has(cards, "below the measured range"));
@@ -54,8 +57,10 @@ TEST_F(Report, ComparesWithTheLaboratory) {
 }
 
 TEST_F(Report, StatesLimitsWarningsAndTheWholeSeed) {
-  write_text(folder_ / "run.json",
-             manifest(R"("limits": [{"name": "overlap", "value": 0.2, "limit": "10 %", "ok": false}], "warnings": ["<b>"],)"));
+  write_text(
+      folder_ / "run.json",
+      manifest(
+          R"("limits": [{"name": "overlap", "value": 0.2, "limit": "10 %", "ok": false}], "warnings": ["<b>"],)"));
   const RunFolder run = read_run_folder(folder_);
   EXPECT_TRUE(has(limits_and_warnings(run), "exceeded"));
   EXPECT_TRUE(has(limits_and_warnings(run), "<li>&lt;b&gt;</li>"));
@@ -90,7 +95,8 @@ TEST_F(Report, ADamagedManifestIsExplained) {
   write_text(folder_ / "run.json", "[]");
   EXPECT_TRUE(has(io_error([&] { write_report(folder_); }), "expected an object"));
   write_text(folder_ / "run.json", "{\"status\": \"completed\", \"exit_code\": \"none\"}");
-  EXPECT_TRUE(has(io_error([&] { write_report(folder_); }), "key 'exit_code' is \"none\", expected a whole number"));
+  EXPECT_TRUE(
+      has(io_error([&] { write_report(folder_); }), "key 'exit_code' is \"none\", expected a whole number"));
   std::string text = manifest("");
   text.replace(text.find("\"kappa\": 1.0"), 12, "\"kapa\": 1.0");
   write_text(folder_ / "run.json", text);
@@ -99,7 +105,8 @@ TEST_F(Report, ADamagedManifestIsExplained) {
 
 TEST_F(Report, ADamagedSeriesIsAnErrorAndNoSeriesIsNot) {
   EXPECT_TRUE(has(read_run_folder(folder_).surface_note, "no frames"));
-  write_text(folder_ / "series.pvd", "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"vtk/a.vtp\"/>");
+  write_text(folder_ / "series.pvd",
+             "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"vtk/a.vtp\"/>");
   EXPECT_TRUE(has(io_error([&] { (void)read_run_folder(folder_); }), "a.vtp: no such file"));
 }
 

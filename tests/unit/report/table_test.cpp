@@ -42,7 +42,8 @@ TEST_F(TableFile, AFolderInItsPlaceIsRefused) {
 TEST_F(TableFile, AMissingColumnIsNamedBesideThoseThere) {
   const auto file = with("revolution,depth_um\n1,2\n");
   const std::string message = io_error([&] { (void)read_table(file, kColumns); });
-  EXPECT_NE(message.find("t.csv:1: column 'depth_mm' is missing; the header has: revolution, depth_um"), std::string::npos)
+  EXPECT_NE(message.find("t.csv:1: column 'depth_mm' is missing; the header has: revolution, depth_um"),
+            std::string::npos)
       << message;
 }
 

@@ -1,0 +1,20 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# check_report.sh worn|unworn <make_report> <folder>: makes a run's folder, its report, and opens it in Chromium.
+# Returns 77 (skipped) where Python, Node or Chromium is not installed.
+set -eu
+here=$(dirname "$0") kind=$1 make_report=$2 folder=$3
+need() { command -v "$1" 2>/dev/null || { echo "skipped: $1 is not installed" >&2; exit 77; }; }
+need python3 >/dev/null
+node=$(command -v node || command -v nodejs || need node)
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || need chromium)
+
+rm -rf "$folder"
+case $kind in
+  # The title tries to be markup, a script and a place of the template.
+  worn) python3 "$here/make_run.py" "$folder" --title '<script>alert("run")</script> {{charts}} & "pin"'; figures=10 ;;
+  unworn) python3 "$here/make_run.py" "$folder" --unworn; figures=0 ;;
+  *) echo "unknown kind '$kind'; expected worn or unworn" >&2; exit 2 ;;
+esac
+"$make_report" "$folder"
+exec "$node" "$here/check_report.mjs" "$chromium" "$folder/report.html" "$figures"

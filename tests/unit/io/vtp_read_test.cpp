@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/io/vtp_read.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "abradem/core/error.h"
+
+namespace abradem::io {
+namespace {
+
+class VtpFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    file_ = std::filesystem::temp_directory_path() /
+            ("abradem_vtp_" + std::to_string(::getpid()) +
+             ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  }
+  void TearDown() override { std::filesystem::remove(file_); }
+
+  const std::filesystem::path& with(const std::string& text) {
+    std::ofstream(file_, std::ios::binary) << text;
+    return file_;
+  }
+  std::string message(const std::string& text) {
+    with(text);
+    try {
+      (void)read_vtp(file_);
+    } catch (const IoError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  std::filesystem::path file_;
+};
+
+/// Two triangles over four points.
+std::string ascii(const std::string& connectivity = "0 1 2 1 3 2", const std::string& offsets = "3 6") {
+  return R"(<?xml version="1.0"?>
+<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian"><PolyData><Piece NumberOfPoints="4" NumberOfPolys="2">
+<PointData Scalars="depth_um"><DataArray type="Float64" Name="depth_um" format="ascii">0 1.5 2.5e0 -3</DataArray></PointData>
+<CellData><DataArray type="Int32" Name="a &lt; b" NumberOfComponents="2" format="ascii">1 2
+3 4</DataArray></CellData>
+<Points><DataArray type="Float64" Name="Points" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 1 1 -0.25</DataArray></Points>
+<Verts></Verts>
+<Polys><DataArray type="Int32" Name="connectivity" format="ascii">)" +
+         connectivity + R"(</DataArray><DataArray type="Int32" Name="offsets" format="ascii">)" + offsets +
+         "</DataArray></Polys></Piece></PolyData></VTKFile>\n";
+}
+
+TEST_F(VtpFile, ReadsAnAsciiSurfaceWithItsFields) {
+  const VtpSurface surface = read_vtp(with(ascii()));
+  ASSERT_EQ(surface.mesh.vertices.size(), 4u);
+  EXPECT_EQ(surface.mesh.vertices[3], (Vec3{1.0, 1.0, -0.25}));
+  ASSERT_EQ(surface.mesh.triangles.size(), 2u);
+  EXPECT_EQ(surface.mesh.triangles[1], (geometry::Triangle{1, 3, 2}));
+  EXPECT_EQ(surface.point_data.at("depth_um").values, (std::vector<double>{0.0, 1.5, 2.5, -3.0}));
+  EXPECT_EQ(surface.cell_data.at("a < b").components, 2);
+}
+
+// A triangle (0 0 0, 1 0 0, 0 1 0) as other writers store it: header and data together, and one after the
+// other.
+std::string inline_binary(const char* connectivity) {
+  return std::string(
+             R"(<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian" header_type="UInt32"><PolyData>
+<Piece NumberOfPoints="3" NumberOfPolys="1"><Points><DataArray type="Float32" Name="Points" NumberOfComponents="3" format="ascii">
+0 0 0 1 0 0 0 1 0</DataArray></Points><Polys><DataArray type="Int32" Name="connectivity" format="binary">)") +
+         connectivity +
+         R"(</DataArray><DataArray type="Int32" Name="offsets" format="ascii">3</DataArray></Polys></Piece></PolyData></VTKFile>)";
+}
+
+TEST_F(VtpFile, ReadsBase64WithItsHeaderTogetherAndApart) {
+  const geometry::Triangle expected{0, 1, 2};
+  EXPECT_EQ(read_vtp(with(inline_binary("DAAAAAAAAAABAAAAAgAAAA=="))).mesh.triangles.at(0), expected);
+  EXPECT_EQ(read_vtp(with(inline_binary("DAAAAA==AAAAAAEAAAACAAAA"))).mesh.triangles.at(0), expected);
+}
+
+TEST_F(VtpFile, ACutOffArrayIsNamedAsDamage) {
+  EXPECT_NE(message(inline_binary("DAAAAAAAAAABAAAA")).find("shorter than its header says"),
+            std::string::npos);
+  EXPECT_NE(message(inline_binary("DAA")).find("shorter than its header says"), std::string::npos);
+}
+
+TEST_F(VtpFile, WhatIsNoTriangulatedSurfaceIsRefused) {
+  EXPECT_NE(message("solid disc\n").find("not a VTK XML file"), std::string::npos);
+  EXPECT_NE(
+      message("<VTKFile type=\"UnstructuredGrid\">").find("holds 'UnstructuredGrid', expected PolyData"),
+      std::string::npos);
+  EXPECT_NE(message("<VTKFile type=\"PolyData\" byte_order=\"BigEndian\">").find("big endian"),
+            std::string::npos);
+  EXPECT_NE(
+      message("<VTKFile type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\">").find("vtkLZ4DataCompressor"),
+      std::string::npos);
+  EXPECT_NE(message("<VTKFile type=\"PolyData\"><PolyData></PolyData></VTKFile>").find("no <Piece>"),
+            std::string::npos);
+  EXPECT_NE(message("<VTKFile type=\"PolyData\"").find("ends inside a tag"), std::string::npos);
+  EXPECT_NE(message(ascii("0 1 2 3", "4")).find("only triangles"), std::string::npos);
+  EXPECT_NE(message(ascii("0 1 2 1 9 2")).find("triangle 1 names point 9, but there are 4"),
+            std::string::npos);
+  EXPECT_NE(message(ascii("0 1 2 1 x 2")).find("'x', expected a number"), std::string::npos);
+}
+
+TEST_F(VtpFile, AMissingFileIsNamed) {
+  try {
+    (void)read_vtp(file_);
+    FAIL();
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find(file_.string() + ": no such file"), std::string::npos);
+  }
+}
+
+TEST_F(VtpFile, ReadsACollectionInOrder) {
+  const auto frames = read_pvd(with(R"(<?xml version="1.0"?>
+<VTKFile type="Collection" version="1.0"><Collection>
+<DataSet timestep="0" part="0" file="vtk/a &amp; b_0.vtp"/>
+<DataSet timestep="2.5" part="1" file="vtk/pin_1.vtp"/>
+</Collection></VTKFile>)"));
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].file, file_.parent_path() / "vtk/a & b_0.vtp");
+  EXPECT_EQ(frames[1].time, 2.5);
+  EXPECT_EQ(frames[1].part, "1");
+  EXPECT_THROW((void)read_pvd(with("<VTKFile type=\"PolyData\">")), IoError);
+}
+
+}  // namespace
+}  // namespace abradem::io
