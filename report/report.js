@@ -191,11 +191,11 @@ function surfaceFigure(data, facts, arrays) {
     const z0 = s.z[0], sunk = facet.max_depth_um * chosen / 1000;
     const zr = flat ? [z0 - 1.1 * sunk, z0 + 0.35 * sunk] : range(pz);
     const size = Math.max(xr[1] - xr[0], yr[1] - yr[0]), scale = view === 'whole' ? 1.55 : 1.5;
-    const far = narrow() ? 1.6 : view === 'whole' ? 1.04 : 1;
+    const far = narrow() ? (view === 'whole' ? 1.75 : 1.95) : view === 'whole' ? 1.2 : 1;
     const ratio = (r) => scale * (r[1] - r[0]) / size;
     const common = { gridcolor: css('--grid'), linecolor: css('--line'), zeroline: false, showbackground: false, tickfont: { size: 11.5 },
                      showspikes: false, color: css('--muted'), nticks: 5, ticks: 'outside', ticklen: 4, tickcolor: css('--line') };
-    const step = roundDown(facet.max_depth_um / 1.9), levels = [0];
+    const step = roundDown(facet.max_depth_um / (narrow() ? 1 : 1.9)), levels = [0];
     while (levels.length < 6 && levels.at(-1) + step <= facet.max_depth_um * 1.05) levels.push(levels.at(-1) + step);
     const zAxis = flat ? { title: { text: 'height [µm]' }, tickvals: levels.map((d) => z0 - d * chosen / 1000),
                            ticktext: levels.map((d) => d === 0 ? '0' : '−' + Number(d.toPrecision(3))) } : { title: { text: 'z [mm]' } };
@@ -212,10 +212,11 @@ function surfaceFigure(data, facts, arrays) {
         margin: { l: 0, r: 0, t: 8, b: narrow() ? 50 : 8 }, uirevision: view, dragmode: 'orbit',
         scene: {
           uirevision: view, dragmode: 'orbit', aspectmode: 'manual', aspectratio: { x: ratio(xr), y: ratio(yr), z: ratio(zr) },
-          camera: view === 'whole' ? { eye: { x: 0, y: -1.12 * far, z: 1.3 * far }, center: { x: 0, y: narrow() ? -.08 : -.05, z: -.02 } }
+          camera: view === 'whole' ? { eye: { x: 0, y: -1.12 * far, z: 1.3 * far }, center: { x: 0, y: -.12, z: -.08 } }
                                    : { eye: { x: .6 * far, y: -1.0 * far, z: .85 * far }, center: { x: .03, y: 0, z: -.08 } },
           xaxis: { ...common, title: { text: 'x [mm]' }, range: xr }, yaxis: { ...common, title: { text: 'y [mm]' }, range: yr, nticks: view === 'whole' ? 5 : 3 },
-          zaxis: { ...common, ...zAxis, range: zr },
+          // Seen whole, a flat track is too thin for a scale of its height; the colour bar has it.
+          zaxis: { ...common, ...zAxis, range: zr, visible: !(flat && view === 'whole') },
         },
       },
       buttons: ['toImage', 'zoom3d', 'pan3d', 'orbitRotation', 'resetCameraDefault3d'],

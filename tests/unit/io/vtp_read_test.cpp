@@ -4,11 +4,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "abradem/core/error.h"
+#include "abradem/geometry/generators.h"
+#include "abradem/io/vtp.h"
 
 namespace abradem::io {
 namespace {
@@ -112,6 +116,36 @@ TEST_F(VtpFile, AMissingFileIsNamed) {
   } catch (const IoError& error) {
     EXPECT_NE(std::string(error.what()).find(file_.string() + ": no such file"), std::string::npos);
   }
+}
+
+TEST_F(VtpFile, ReadsWhatTheWriterWritesBitForBit) {
+  geometry::TriangleMesh mesh = geometry::make_annulus(20e-3, 24e-3, 0.2e-3, 1);  // more than one block
+  std::vector<double> depth;
+  for (Vec3& p : mesh.vertices) depth.push_back(1e6 * (p.z = -1e-6 * std::abs(p.x / 3.0)));
+  const VtpArray field{.name = "depth < um", .values = depth};
+  write_vtp(file_, mesh, {&field, 1});
+  const VtpSurface surface = read_vtp(file_);
+  EXPECT_EQ(surface.mesh.vertices, mesh.vertices);
+  EXPECT_EQ(surface.mesh.triangles, mesh.triangles);
+  EXPECT_EQ(surface.point_data.at("depth < um").values, depth);
+}
+
+TEST_F(VtpFile, SpheresAreASurfaceWithoutTriangles) {
+  const std::vector<Vec3> centres{{0.022, 0.0, 0.003}};
+  const std::vector<double> radii{0.003};
+  write_vtp_spheres(file_, centres, radii);
+  EXPECT_EQ(read_vtp(file_).mesh.vertices, centres);
+  EXPECT_TRUE(read_vtp(file_).mesh.triangles.empty());
+}
+
+TEST_F(VtpFile, ReadsTheWritersCollection) {
+  const std::vector<PvdEntry> entries{{0.0, "vtk/a & b.vtp", 0}, {0.1, "vtk/c.vtp", 2}};
+  write_pvd(file_, entries);
+  const auto frames = read_pvd(file_);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].file, file_.parent_path() / "vtk/a & b.vtp");
+  EXPECT_EQ(frames[1].time, 0.1);
+  EXPECT_EQ(frames[1].part, "2");
 }
 
 TEST_F(VtpFile, ReadsACollectionInOrder) {
