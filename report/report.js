@@ -212,7 +212,7 @@ function surfaceFigure(data, facts, arrays) {
         margin: { l: 0, r: 0, t: 8, b: narrow() ? 50 : 8 }, uirevision: view, dragmode: 'orbit',
         scene: {
           uirevision: view, dragmode: 'orbit', aspectmode: 'manual', aspectratio: { x: ratio(xr), y: ratio(yr), z: ratio(zr) },
-          camera: view === 'whole' ? { eye: { x: 0, y: -1.12 * far, z: 1.3 * far }, center: { x: 0, y: -.12, z: -.08 } }
+          camera: view === 'whole' ? { eye: { x: 0, y: -1.12 * far, z: 1.3 * far }, center: { x: 0, y: -.2, z: -.12 } }
                                    : { eye: { x: .6 * far, y: -1.0 * far, z: .85 * far }, center: { x: .03, y: 0, z: -.08 } },
           xaxis: { ...common, title: { text: 'x [mm]' }, range: xr }, yaxis: { ...common, title: { text: 'y [mm]' }, range: yr, nticks: view === 'whole' ? 5 : 3 },
           // Seen whole, a flat track is too thin for a scale of its height; the colour bar has it.
