@@ -20,8 +20,10 @@ int run_command(const RunArguments& arguments);
 struct CheckArguments {
   std::string path;
   std::vector<std::string> overrides;
+  std::string unit = "mm";  ///< of a mesh file
+  bool json = false;        ///< mesh file: the table as JSON
 };
-/// Reads a case file and says what is wrong with it.
+/// Reads a case file or, by its suffix, a mesh file and says what is wrong with it.
 int check_command(const CheckArguments& arguments);
 
 struct NewArguments {
@@ -33,6 +35,9 @@ int new_command(const NewArguments& arguments);
 
 /// Prints the schema of the case file. @param format "json" or "md"
 int schema_command(const std::string& format);
+
+/// Makes the report of a run's folder again.
+int report_command(const std::string& folder);
 
 /// Version, commit, compiler and flags, a line each.
 [[nodiscard]] std::string version_text();

@@ -22,6 +22,7 @@ struct Arguments {
   cli::RunArguments run;
   cli::CheckArguments check;
   cli::NewArguments create;
+  std::string report_folder;
   std::string schema_format = "json";
 };
 
@@ -53,9 +54,14 @@ void declare(CLI::App& app, Arguments& a) {
       run->add_flag("--dry-run", a.run.dry_run, "Print the resolved case to stdout and write nothing");
   run->add_flag("--json", a.run.json, "Print run.json to stdout at the end")->excludes(dry);
 
-  CLI::App* check = app.add_subcommand("check", "Say what is wrong with a case file");
-  check->add_option("CASE", a.check.path, "Case file (TOML)")->required();
+  CLI::App* check = app.add_subcommand("check", "Say what is wrong with a case file or a mesh");
+  check->add_option("CASE|MESH", a.check.path, "Case file (TOML), or mesh (.stl, .obj, .ply)")->required();
   add_overrides(*check, a.check.overrides);
+  check->add_option("--unit", a.check.unit, "Mesh: its unit of length (default: mm)")->type_name("UNIT");
+  check->add_flag("--json", a.check.json, "Mesh: print the table as JSON");
+
+  CLI::App* report = app.add_subcommand("report", "Make the report of a run's folder again");
+  report->add_option("DIR", a.report_folder, "Output folder of a run")->required();
 
   std::string names;
   for (const cli::CaseTemplate& t : cli::case_templates())
@@ -73,6 +79,7 @@ void declare(CLI::App& app, Arguments& a) {
 int dispatch(const CLI::App& app, const Arguments& a) {
   if (app.got_subcommand("run")) return cli::run_command(a.run);
   if (app.got_subcommand("check")) return cli::check_command(a.check);
+  if (app.got_subcommand("report")) return cli::report_command(a.report_folder);
   if (app.got_subcommand("new")) return cli::new_command(a.create);
   return cli::schema_command(a.schema_format);
 }

@@ -1,16 +1,191 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abradem/cli/run_case.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <optional>
+
 #include "abradem/cli/output_folder.h"
+#include "abradem/cli/print.h"
+#include "abradem/cli/progress.h"
 #include "abradem/core/error.h"
+#include "abradem/geometry/mesh_check.h"
+#include "abradem/geometry/mesh_repair.h"
+#include "abradem/io/mesh_files.h"
+#include "abradem/io/run_record.h"
+#include "abradem/io/run_recorder.h"
+#include "abradem/report/report.h"
 
 namespace abradem::cli {
 
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using simulation::Simulation;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+volatile std::sig_atomic_t stop_requested = 0;
+void request_stop(int) { stop_requested = 1; }
+
+/// Ctrl-C and a polite kill end the run at the next look, with everything written; a second one ends it at
+/// once.
+class StopSignals {
+ public:
+  StopSignals() {
+    stop_requested = 0;
+    struct sigaction action {};
+    action.sa_handler = request_stop;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, &interrupt_);
+    sigaction(SIGTERM, &action, &terminate_);
+  }
+  ~StopSignals() {
+    sigaction(SIGINT, &interrupt_, nullptr);
+    sigaction(SIGTERM, &terminate_, nullptr);
+  }
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+ private:
+  struct sigaction interrupt_ {
+  }, terminate_{};
+};
+
+/// Meshes the generated shapes; reads, repairs and judges the others.
+class MeshLoader {
+ public:
+  explicit MeshLoader(const simulation::Setup& setup) {
+    for (const simulation::ParticleSetup& p : setup.particles)
+      largest_radius_ = std::max(largest_radius_.value_or(0.0), p.radius);
+  }
+
+  geometry::TriangleMesh operator()(const simulation::MeshSetup& mesh, std::uint64_t seed) const {
+    if (mesh.shape != simulation::MeshShape::file) return simulation::generate_mesh(mesh, seed);
+    geometry::TriangleMesh read = io::read_mesh(mesh.file, mesh.unit);
+    const geometry::RepairRecord repaired = geometry::repair_mesh(read);
+    if (repaired.changed())
+      print_message(fmt::format(
+          "warning: mesh '{}' was repaired in memory; `abradem check` says what was done", mesh.file));
+    const geometry::MeshVerdict verdict = geometry::judge_mesh(geometry::check_mesh(read), largest_radius_);
+    for (const std::string& warning : verdict.warnings)
+      print_message(fmt::format("warning: mesh '{}': {}", mesh.file, warning));
+    if (!verdict.usable())
+      throw GeometryError(fmt::format("mesh '{}': {}", mesh.file, fmt::join(verdict.errors, "; ")));
+    for (Vec3& p : read.vertices) p += mesh.position;
+    return read;
+  }
+
+ private:
+  std::optional<double> largest_radius_;
+};
+
+void announce(const Simulation& run, RunLog& log) {
+  for (const simulation::Wall& wall : run.walls())
+    if (!wall.is_plane())
+      log.line(fmt::format("wall '{}': {} triangles, mean edge {:.4g} mm", wall.setup().name,
+                           wall.surface().mesh().triangle_count(),
+                           1e3 * geometry::mean_edge_length(wall.surface().mesh())));
+  log.line(fmt::format("{} steps of {:.4g} s, {} per output", run.total_steps(), run.time_step(),
+                       run.steps_per_output()));
+}
+
+void report_limits(const std::vector<simulation::StabilityLimit>& limits, RunLog& log,
+                   std::vector<std::string>* warnings) {
+  for (const simulation::StabilityLimit& limit : limits) {
+    log.line(fmt::format("stability: {} = {:.4g}, limit {:.4g}{}", limit.name, limit.value, limit.limit,
+                         limit.ok() ? "" : "  EXCEEDED"));
+    if (!limit.ok() && warnings != nullptr) {
+      warnings->push_back(
+          fmt::format("{} is {:.4g}, above its limit of {:.4g}: the contact may chatter; take a "
+                      "shorter time_step",
+                      limit.name, limit.value, limit.limit));
+      log.warning(warnings->back());
+    }
+  }
+}
+
+/// Steps to the end, with an output whenever one is due. @return false when a signal ended it early
+bool run_to_end(Simulation& run, io::RunRecorder& recorder, Progress& progress, double& stepping_seconds) {
+  while (!run.finished()) {
+    const Clock::time_point start = Clock::now();
+    const bool due = run.advance([&] {
+      progress.update(run);
+      return stop_requested == 0;
+    });
+    stepping_seconds += seconds_since(start);
+    if (due || stop_requested != 0) {
+      recorder.output();
+      progress.output(run, recorder);
+    }
+    if (stop_requested != 0 && !run.finished()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 int run_case(const RunOptions& options) {
+  const Clock::time_point start = Clock::now();
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  // Everything that can be refused is refused before the folder exists.
+  Simulation run(options.setup, MeshLoader(options.setup));
+
   prepare_output_folder(options.output, options.force);
   write_file(options.output / "case.toml", options.case_text);
   write_file(options.output / "case.resolved.toml", options.resolved_text);
-  return static_cast<int>(ExitCode::ok);
+  RunLog log(options.output / "run.log", options.quiet);
+  log.line(fmt::format("{} -> {}", options.case_path.string(), options.output.string()));
+  announce(run, log);
+
+  io::RunRecord record;
+  record.threads = omp_get_max_threads();
+  report_limits(run.limits(), log, nullptr);
+  io::RunRecorder recorder(run, options.output);
+  {
+    const StopSignals signals;
+    Progress progress(log);
+    try {
+      if (!run_to_end(run, recorder, progress, record.stepping_seconds)) {
+        record.status = "interrupted";
+        record.exit_code = static_cast<int>(ExitCode::interrupted);
+      }
+    } catch (const SimulationError& e) {
+      // What was computed up to the last output stays; the state that failed is not a result.
+      record.status = "failed";
+      record.exit_code = static_cast<int>(ExitCode::unphysical);
+      record.error = e.what();
+    }
+    progress.finish();
+  }
+  recorder.close();
+  record.steps = run.steps();
+  record.state_hash = run.state_hash();
+  record.ledger = recorder.ledger();
+  record.last = recorder.last();
+  record.limits = run.limits();
+  record.warnings = run.warnings();
+  report_limits(record.limits, log, &record.warnings);
+  if (record.ledger.residual > 1e-9) {
+    record.warnings.push_back(
+        fmt::format("the ledger does not close: residual {:.3g}", record.ledger.residual));
+    log.warning(record.warnings.back());
+  }
+  record.wall_seconds = seconds_since(start);
+  const std::string json = io::to_json(record, options.setup);
+  write_file(options.output / "run.json", json);
+  report::write_report(options.output);
+
+  summarise(record, options.output, log);
+  if (options.json) print_result(json);
+  return record.exit_code;
 }
 
 }  // namespace abradem::cli

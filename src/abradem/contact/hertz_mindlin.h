@@ -81,8 +81,8 @@ struct ContactForce {
 /// One step of the force law.                                                    [paper, eq. 1-2]
 ///   F_n = elastic - D_n v_n,   F_t = -S_t s - D_t v_t,   |F_t| <= mu max(F_n, 0)
 /// Order: turn s into the new plane; shrink it by a/a_old on unloading (else a stiffness that falls with the
-/// load would create energy; Thornton et al. 2013); add v_t dt; stick with damping, or slip without it and cut
-/// s back to Coulomb's cone. The length cut off is the plastic slip.
+/// load would create energy; Thornton et al. 2013); add v_t dt; stick with damping, or slip without it and
+/// cut s back to Coulomb's cone. The length cut off is the plastic slip.
 [[nodiscard]] inline ContactForce hertz_mindlin(const PairProperties& p, const ContactState& c, double dt,
                                                 TangentialHistory& history) noexcept {
   ContactForce f;

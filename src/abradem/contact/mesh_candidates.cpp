@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace abradem::contact {
 
@@ -33,14 +34,18 @@ struct Sweep {
     return a * a + b * b < reach * reach;
   }
 
-  [[nodiscard]] bool may_meet(const TriangleMesh& mesh, Index t) const noexcept {
+  /// Squared distance of the triangle's centroid from the axis, when the triangle can be met.
+  [[nodiscard]] std::optional<double> meets(const TriangleMesh& mesh, Index t) const noexcept {
     const geometry::Triangle& v = mesh.triangles[at(t)];
     const Vec3 &p0 = mesh.vertices[at(v[0])], &p1 = mesh.vertices[at(v[1])], &p2 = mesh.vertices[at(v[2])];
     const Vec3 centroid = (p0 + p1 + p2) * (1.0 / 3.0);
     const Vec3 q0 = p0 - centroid, q1 = p1 - centroid, q2 = p2 - centroid;
     const double radius = std::sqrt(std::max({norm2(q0), norm2(q1), norm2(q2)}));
-    const double half_depth = std::max({std::abs(dot(q0, axis)), std::abs(dot(q1, axis)), std::abs(dot(q2, axis))});
-    return may_meet(centroid, radius, half_depth);
+    const double half_depth =
+        std::max({std::abs(dot(q0, axis)), std::abs(dot(q1, axis)), std::abs(dot(q2, axis))});
+    if (!may_meet(centroid, radius, half_depth)) return std::nullopt;
+    const double along = dot(centroid - c, axis);
+    return norm2(centroid - c) - along * along;
   }
 };
 
@@ -61,9 +66,9 @@ void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec
     gather(surface, c, axis, reach, skin);
   } else if (revision_ != surface.revision) {
     fetch_positions(surface.mesh);
-    // Positions are always the mesh's own; areas and lengths may lag behind by a ten-thousandth of an edge,
-    // which changes a force by less than 1e-8.
-    constexpr double kShapeTolerance = 1e-4;
+    // Positions are always the mesh's own; areas and lengths may lag behind by a thousandth of an edge,
+    // which changes a force by less than 1e-6.
+    constexpr double kShapeTolerance = 1e-3;
     if (surface.odometer - odometer_at_measure_ > kShapeTolerance * shortest_) {
       measure_triangles();
       odometer_at_measure_ = surface.odometer;
@@ -83,11 +88,23 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   const Sweep sweep{c, axis, built_reach_, axis == Vec3{} ? CandidateSkin{whole, 0.0} : skin};
   const double radius = built_reach_ + whole + surface.displaced;
 
+  found_.clear();
+  surface.grid.visit_near(
+      c - Vec3{radius, radius, radius}, c + Vec3{radius, radius, radius},
+      [&](const Vec3& centre, double r) {
+        return sweep.may_meet(centre, r + surface.displaced, r + surface.displaced);
+      },
+      [&](Index t) {
+        if (const auto distance = sweep.meets(mesh, t)) found_.emplace_back(*distance, t);
+      });
+  // From the middle outwards: what is inside the ball comes first, what its rim cuts next, what is outside
+  // last. Loops can stop early, and their branches are easy to foresee.
+  std::ranges::sort(found_);
+
   node.clear();
   triangle.clear();
   v0.clear(), v1.clear(), v2.clear();
-  const auto add = [&](Index t) {
-    if (!sweep.may_meet(mesh, t)) return;
+  for (const auto& [distance, t] : found_) {
     triangle.push_back(t);
     for (std::size_t k = 0; k < 3; ++k) {
       const Index v = mesh.triangles[at(t)][k];
@@ -98,17 +115,15 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
       }
       (k == 0 ? v0 : k == 1 ? v1 : v2).push_back(local);
     }
-  };
-  surface.grid.visit_near(
-      c - Vec3{radius, radius, radius}, c + Vec3{radius, radius, radius},
-      [&](const Vec3& centre, double r) { return sweep.may_meet(centre, r + surface.displaced, r + surface.displaced); }, add);
+  }
   for (const Index v : node) local_[at(v)] = -1;
 
   const std::size_t nodes = padded(node.size()), triangles = padded(triangle.size());
   constexpr double far_away = 1e3;  // [m]: squares stay finite and no ball reaches it
   for (auto* array : {&x, &y, &z}) array->assign(nodes, far_away);
   for (auto* array : {&v0, &v1, &v2}) array->resize(triangles, 0);
-  for (auto* array : {&ax, &ay, &az, &plane, &l01, &l12, &l20, &longest, &area}) array->assign(triangles, 0.0);
+  for (auto* array : {&ax, &ay, &az, &plane, &l01, &l12, &l20, &longest, &area})
+    array->assign(triangles, 0.0);
   fetch_positions(mesh);
   measure_triangles();
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "abradem/geometry/triangle_grid.h"
@@ -11,8 +12,8 @@ namespace abradem::contact {
 
 using geometry::Index;
 
-/// A deforming surface as contact sees it: positions and topology in the wall's own frame, and how far wear has
-/// moved them.
+/// A deforming surface as contact sees it: positions and topology in the wall's own frame, and how far wear
+/// has moved them.
 struct SurfaceView {
   const geometry::TriangleMesh& mesh;
   const geometry::TriangleGrid& grid;
@@ -30,7 +31,8 @@ struct CandidateSkin {
 /// The triangles of a mesh that one sphere can meet, gathered into small contiguous arrays with vertices of
 /// their own numbering. They stay valid while the sphere moves less than the skin, so that a step touches
 /// nothing but these arrays (8 kB for a contact of 200 triangles). Arrays are padded to whole SIMD lanes with
-/// vertices out of reach and triangles of no area.
+/// vertices out of reach and triangles of no area. Triangles are ordered from the middle of the contact
+/// outwards.
 class MeshCandidates {
  public:
   static constexpr std::size_t kLanes = 8;
@@ -38,10 +40,12 @@ class MeshCandidates {
   /// Would an update gather anew (the sphere has left the skin), rather than fetch moved vertices?
   [[nodiscard]] bool stale(const SurfaceView& surface, const Vec3& c, double reach) const noexcept;
 
-  /// Brings the candidates up to date for a sphere at c: gathers anew when stale, else fetches moved vertices.
+  /// Brings the candidates up to date for a sphere at c: gathers anew when stale, else fetches moved
+  /// vertices.
   /// @param axis unit vector from c towards the surface (the last contact's), or zero: unknown
   /// @param reach distance from c within which a triangle counts [m]
-  void update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach, const CandidateSkin& skin);
+  void update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
+              const CandidateSkin& skin);
 
   /// Forgets everything, so that the next update gathers anew: makes a restarted run take the same steps.
   void reset() noexcept { gathered_ = false; }
@@ -54,18 +58,19 @@ class MeshCandidates {
   [[nodiscard]] Vec3 node_position(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
   [[nodiscard]] std::uint64_t gatherings() const noexcept { return gatherings_; }
 
-  std::vector<Index> node;                 ///< mesh vertex of each local node
-  std::vector<double> x, y, z;             ///< node positions, padded [m]
-  std::vector<Index> triangle;             ///< mesh triangle of each local triangle
-  std::vector<std::int32_t> v0, v1, v2;    ///< local nodes of each triangle, padded
-  std::vector<double> ax, ay, az;          ///< area vectors, padded [m^2]
-  std::vector<double> plane;               ///< area vector . vertex, padded [m^3]
-  std::vector<double> l01, l12, l20;       ///< squared edge lengths, padded [m^2]
-  std::vector<double> longest;             ///< largest of the three [m^2]
-  std::vector<double> area;                ///< [m^2]
+  std::vector<Index> node;               ///< mesh vertex of each local node
+  std::vector<double> x, y, z;           ///< node positions, padded [m]
+  std::vector<Index> triangle;           ///< mesh triangle of each local triangle
+  std::vector<std::int32_t> v0, v1, v2;  ///< local nodes of each triangle, padded
+  std::vector<double> ax, ay, az;        ///< area vectors, padded [m^2]
+  std::vector<double> plane;             ///< area vector . vertex, padded [m^3]
+  std::vector<double> l01, l12, l20;     ///< squared edge lengths, padded [m^2]
+  std::vector<double> longest;           ///< largest of the three [m^2]
+  std::vector<double> area;              ///< [m^2]
 
  private:
-  void gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach, const CandidateSkin& skin);
+  void gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
+              const CandidateSkin& skin);
   void fetch_positions(const geometry::TriangleMesh& mesh) noexcept;
   void measure_triangles() noexcept;
 
@@ -74,7 +79,8 @@ class MeshCandidates {
   CandidateSkin built_skin_;
   double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0;
-  std::vector<std::int32_t> local_;        // scratch: local number of a mesh vertex, or -1
+  std::vector<std::pair<double, Index>> found_;  // scratch
+  std::vector<std::int32_t> local_;              // scratch: local number of a mesh vertex, or -1
 };
 
 }  // namespace abradem::contact

@@ -7,7 +7,8 @@
 /// docs/theory/contact.md#patch derives them.
 ///
 /// With g(x) = R - |x - c| the local overlap, the overlapped volume weighted by it,
-///   M = integral of g over (solid and ball),   dM/dc = -sum_T G_T n_T,   G_T = integral of g over (T and ball),
+///   M = integral of g over (solid and ball),   dM/dc = -sum_T G_T n_T,   G_T = integral of g over (T and
+///   ball),
 /// is the potential of the contact: one number for the whole patch, whatever the triangles.
 namespace abradem::contact {
 

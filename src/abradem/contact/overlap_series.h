@@ -16,8 +16,8 @@ inline constexpr std::array<double, kTerms + 1> kOverlap{
 
 /// Binomial series of (1 - eps)^(-3/2).
 inline constexpr std::array<double, kTerms + 1> kInverseCubedRoot{
-    1.0, 3.0 / 2, 15.0 / 8, 35.0 / 16, 315.0 / 128, 693.0 / 256, 3003.0 / 1024, 6435.0 / 2048,
-    109395.0 / 32768};
+    1.0,         3.0 / 2,       15.0 / 8,      35.0 / 16,       315.0 / 128,
+    693.0 / 256, 3003.0 / 1024, 6435.0 / 2048, 109395.0 / 32768};
 
 /// Weight of M on the surface, Q(r) / (R r^3) with Q the integral of (R - s) s^2 from r to R:
 /// (1 - eps)^(-3/2) / 12 - 1/3 + (1 - eps)^(1/2) / 4 = sum kWeighted[k] eps^k; starts at eps^2 / 8.

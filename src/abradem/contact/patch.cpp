@@ -13,8 +13,8 @@ namespace abradem::contact {
 
 namespace {
 
-/// The fast formulas hold for overlaps below about 3 % of R and edges below about a third of the disc's radius;
-/// there their error in force is below 1e-7 (tests/unit/contact/patch_test.cpp).
+/// The fast formulas hold for overlaps below about 3 % of R and edges below about a third of the disc's
+/// radius; there their error in force is below 1e-7 (tests/unit/contact/patch_test.cpp).
 constexpr double kLargestFastExcess = 0.06;
 constexpr double kLargestFastEdge2 = 0.1;  // of the disc's radius squared
 
@@ -24,8 +24,8 @@ double edge_excess(double ea, double eb, double l) noexcept {
   return b > 0.0 && b < 2.0 * l ? ea + 0.25 * b * b / l : std::max(ea, eb);
 }
 
-/// Largest excess in a triangle, from its corners and squared edges: at the foot of the ball's centre when that
-/// lies inside, else on an edge.
+/// Largest excess in a triangle, from its corners and squared edges: at the foot of the ball's centre when
+/// that lies inside, else on an edge.
 double triangle_excess(double e0, double e1, double e2, double l01, double l12, double l20) noexcept {
   const double fu = 0.5 * (e1 - e0 + l01), fv = 0.5 * (e2 - e0 + l20);  // (foot - p0) . edges
   const double uv = 0.5 * (l01 + l20 - l12), det = l01 * l20 - uv * uv;
@@ -51,7 +51,8 @@ std::span<const Patch> PatchEvaluator::evaluate(const MeshCandidates& candidates
   clusters_.clear();
   const std::size_t triangles = candidates.padded_triangle_count();
   excess_.resize(candidates.x.size());
-  for (auto* array : {&e0_, &e1_, &e2_, &mean_g_, &mean_m_, &bound_, &inside_}) array->resize(triangles);
+  for (auto* array : {&e0_, &e1_, &e2_, &mean_g_, &mean_m_, &bound_, &inside_, &height_})
+    array->resize(triangles);
 
   const double node_excess = kernels::node_excess(candidates, c, R, excess_);
   for (std::size_t t = 0; t < triangles; ++t) {
@@ -59,80 +60,111 @@ std::span<const Patch> PatchEvaluator::evaluate(const MeshCandidates& candidates
     e1_[t] = excess_[static_cast<std::size_t>(candidates.v1[t])];
     e2_[t] = excess_[static_cast<std::size_t>(candidates.v2[t])];
   }
+  kernels::survey(candidates, c, R, e0_.data(), e1_.data(), e2_.data(), bound_.data(), inside_.data(),
+                  height_.data());
+  // Candidates are ordered outwards, so what overlaps stands in front.
+  std::size_t last = candidates.triangle_count();
+  while (last > 0 && bound_[last - 1] <= 0.0) --last;
+  active_ = last;
+  const std::size_t padded =
+      (last + MeshCandidates::kLanes - 1) / MeshCandidates::kLanes * MeshCandidates::kLanes;
+
   const bool shallow = node_excess > 0.0 && node_excess < kLargestFastExcess;
   const double limit = shallow ? kLargestFastEdge2 * node_excess * R * R : 0.0;
-  kernels::whole_triangles(triangles, e0_.data(), e1_.data(), e2_.data(), candidates.l01.data(),
-                           candidates.l12.data(), candidates.l20.data(), candidates.longest.data(), R, limit,
-                           mean_g_.data(), mean_m_.data(), bound_.data(), inside_.data());
+  kernels::whole_triangles(padded, candidates, e0_.data(), e1_.data(), e2_.data(), inside_.data(), R, limit,
+                           mean_g_.data(), mean_m_.data());
+  std::fill(mean_g_.begin() + static_cast<std::ptrdiff_t>(padded), mean_g_.end(), 0.0);
   deepest_excess_ = node_excess;
-  classify(candidates, c, R, limit);
+  classify(candidates, R, limit);
   integrate_rim();
   integrate_exactly(candidates, c, R);
   if (overlapped_ == 0) return patches_;
   deepest_points(candidates, R);
   if (candidates.nearly_flat())
-    single(candidates, c, R, pair);
+    single(candidates, padded, R, pair);
   else
     cluster(candidates, c, R, pair);
   return patches_;
 }
 
-/// Sorts the triangles into: whole and small (done), cut once by the rim, everything else that may overlap.
-void PatchEvaluator::classify(const MeshCandidates& candidates, const Vec3& c, double R, double limit) {
-  rim_.count = 0;
+/// Sorts the triangles into: whole and small (done), cut by the rim, everything else that may overlap.
+void PatchEvaluator::classify(const MeshCandidates& candidates, double R, double limit) {
+  rim_.resize(active_);
   general_.clear();
   deep_.clear();
   overlapped_ = 0;
-  for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
-    if (bound_[t] <= 0.0) continue;
-    const double inside = inside_[t];
-    if (bound_[t] > deepest_excess_) deep_.push_back(static_cast<std::int32_t>(t));
-    overlapped_ += inside != 0.0;
-    if (candidates.longest[t] > limit || inside == 0.0) {
-      general_.push_back(static_cast<std::int32_t>(t));
-    } else if (inside != 3.0) {
-      add_rim(candidates, t, inside == 1.0, c, R);
+  const double inverse = 1.0 / (R * R);
+  const double* const bound = bound_.data();
+  const double* const corners_inside = inside_.data();
+  const double* const longest = candidates.longest.data();
+  const double deepest = deepest_excess_;
+  for (std::size_t t = 0; t < active_; ++t) {
+    const double inside = corners_inside[t];
+    if (bound[t] > deepest) deep_.push_back(static_cast<std::int32_t>(t));
+    if (inside == 3.0 && longest[t] <= limit) {
+      ++overlapped_;
+      continue;
     }
+    if (bound[t] <= 0.0) continue;
+    overlapped_ += inside != 0.0;
+    if (longest[t] > limit)
+      general_.push_back(static_cast<std::int32_t>(t));
+    else if (inside == 0.0)
+      add_caps(candidates, t, R);
+    else
+      add_rim(candidates, t, inside == 1.0, inverse, R);
   }
 }
 
-void PatchEvaluator::add_rim(const MeshCandidates& candidates, std::size_t t, bool inside, const Vec3& c, double R) {
+/// A small triangle whose corners are all outside: the ball may still reach over its edges.
+void PatchEvaluator::add_caps(const MeshCandidates& candidates, std::size_t t, double R) {
   const double inverse = 1.0 / (R * R);
+  const double l[3]{candidates.l01[t] * inverse, candidates.l12[t] * inverse, candidates.l20[t] * inverse};
+  const double w2[3]{edge_excess(e0_[t], e1_[t], l[0]), edge_excess(e1_[t], e2_[t], l[1]),
+                     edge_excess(e2_[t], e0_[t], l[2])};
+  const double d = height_[t] / (candidates.area[t] * R);
+  for (const double w : w2) {
+    if (w <= 0.0) continue;
+    const auto [g, m] = kernels::cap(w, 1.0 - d * d, candidates.area[t] * inverse);
+    mean_g_[t] += g;
+    mean_m_[t] += m;
+  }
+  overlapped_ += mean_g_[t] > 0.0;
+}
+
+void PatchEvaluator::Rim::resize(std::size_t capacity) {
+  count = 0;
+  const std::size_t size =
+      (capacity + MeshCandidates::kLanes) / MeshCandidates::kLanes * MeshCandidates::kLanes;
+  if (triangle.size() >= size) return;
+  for (auto* array : {&e0, &e1, &e2, &l01, &l12, &l20, &slope, &inside, &beyond, &g, &m})
+    array->resize(size, 1.0);
+  triangle.resize(size, 0);
+}
+
+void PatchEvaluator::add_rim(const MeshCandidates& candidates, std::size_t t, bool inside, double inverse,
+                             double R) {
   const double e[3]{e0_[t], e1_[t], e2_[t]};
   const double l[3]{candidates.l01[t] * inverse, candidates.l12[t] * inverse, candidates.l20[t] * inverse};
   // The odd vertex is the one whose side no other shares.
   const int odd = (e[0] > 0.0) == inside ? 0 : (e[1] > 0.0) == inside ? 1 : 2;
   const int k1 = odd == 2 ? 0 : odd + 1, k2 = odd == 0 ? 2 : odd - 1;
-  if (inside) {
-    // Both other vertices are outside: does the ball still cut the edge between them?
-    if (edge_excess(e[k1], e[k2], l[k1]) > 0.0) {
-      general_.push_back(static_cast<std::int32_t>(t));
-      return;
-    }
-  }
   const std::size_t k = rim_.count++;
-  if (k >= rim_.triangle.size()) {
-    const std::size_t size = rim_.triangle.size() + 8 * MeshCandidates::kLanes;
-    for (auto* array : {&rim_.e0, &rim_.e1, &rim_.e2, &rim_.l01, &rim_.l12, &rim_.l20, &rim_.E, &rim_.inside,
-                        &rim_.g, &rim_.m})
-      array->resize(size, 1.0);
-    rim_.triangle.resize(size, 0);
-  }
-  const double Ad = candidates.ax[t] * c.x + candidates.ay[t] * c.y + candidates.az[t] * c.z - candidates.plane[t];
-  const double d = Ad / (candidates.area[t] * R);
   rim_.e0[k] = e[odd], rim_.e1[k] = e[k1], rim_.e2[k] = e[k2];
   rim_.l01[k] = l[odd], rim_.l12[k] = l[k1], rim_.l20[k] = l[k2];
-  rim_.E[k] = 1.0 - d * d;
+  rim_.slope[k] = height_[t] / (candidates.area[t] * R);
   rim_.inside[k] = inside ? 1.0 : 0.0;
+  rim_.beyond[k] = inside ? std::max(0.0, edge_excess(e[k1], e[k2], l[k1])) : 0.0;
   rim_.triangle[k] = static_cast<std::int32_t>(t);
 }
 
 void PatchEvaluator::integrate_rim() {
   constexpr std::size_t lanes = MeshCandidates::kLanes;
   const std::size_t padded = (rim_.count + lanes - 1) / lanes * lanes;
-  kernels::rim_triangles(padded, rim_.e0.data(), rim_.e1.data(), rim_.e2.data(), rim_.l01.data(),
-                         rim_.l12.data(), rim_.l20.data(), rim_.E.data(), rim_.inside.data(), rim_.g.data(),
-                         rim_.m.data());
+  kernels::rim_triangles(padded,
+                         {rim_.e0.data(), rim_.e1.data(), rim_.e2.data(), rim_.l01.data(), rim_.l12.data(),
+                          rim_.l20.data(), rim_.slope.data(), rim_.inside.data(), rim_.beyond.data()},
+                         rim_.g.data(), rim_.m.data());
   for (std::size_t k = 0; k < rim_.count; ++k) {
     mean_g_[static_cast<std::size_t>(rim_.triangle[k])] = rim_.g[k];
     mean_m_[static_cast<std::size_t>(rim_.triangle[k])] = rim_.m[k];
@@ -146,10 +178,9 @@ void PatchEvaluator::integrate_exactly(const MeshCandidates& candidates, const V
         overlap_of_triangle(candidates.node_position(static_cast<std::size_t>(candidates.v0[t])) - c,
                             candidates.node_position(static_cast<std::size_t>(candidates.v1[t])) - c,
                             candidates.node_position(static_cast<std::size_t>(candidates.v2[t])) - c, R);
-    const double Ad = candidates.ax[t] * c.x + candidates.ay[t] * c.y + candidates.az[t] * c.z - candidates.plane[t];
     if (!(overlap.G > 0.0)) continue;
     mean_g_[t] = overlap.G / (R * candidates.area[t]);
-    mean_m_[t] = Ad != 0.0 ? overlap.M / (R * Ad) : 0.0;
+    mean_m_[t] = height_[t] != 0.0 ? overlap.M / (R * height_[t]) : 0.0;
     if (std::max({e0_[t], e1_[t], e2_[t]}) <= 0.0) ++overlapped_;
   }
 }
@@ -158,9 +189,9 @@ void PatchEvaluator::deepest_points(const MeshCandidates& candidates, double R) 
   const double inverse = 1.0 / (R * R);
   for (const std::int32_t index : deep_) {
     const auto t = static_cast<std::size_t>(index);
-    deepest_excess_ = std::max(
-        deepest_excess_, triangle_excess(e0_[t], e1_[t], e2_[t], candidates.l01[t] * inverse,
-                                         candidates.l12[t] * inverse, candidates.l20[t] * inverse));
+    deepest_excess_ =
+        std::max(deepest_excess_, triangle_excess(e0_[t], e1_[t], e2_[t], candidates.l01[t] * inverse,
+                                                  candidates.l12[t] * inverse, candidates.l20[t] * inverse));
   }
 }
 
@@ -178,9 +209,9 @@ Patch make_patch(const std::array<double, 4>& sums, double deepest, int triangle
   return patch;
 }
 
-void PatchEvaluator::single(const MeshCandidates& candidates, const Vec3& c, double R,
+void PatchEvaluator::single(const MeshCandidates& candidates, std::size_t padded, double R,
                             const PairProperties& pair) {
-  const auto sums = kernels::sums(candidates, c, mean_g_, mean_m_);
+  const auto sums = kernels::sums(padded, candidates, height_.data(), mean_g_.data(), mean_m_.data());
   const Patch patch = make_patch(sums, depth_of(deepest_excess_, R), overlapped_, R, pair);
   if (patch.triangles > 0) patches_.push_back(patch);
 }

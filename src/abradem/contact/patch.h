@@ -20,8 +20,8 @@ struct Patch {
 };
 
 /// The contact rule `patch`: the force is an integral over the overlapped surface, so it does not know the
-/// triangulation. F = K sum_T G_T n_T, with K a function of M alone and such that a plane gives Hertz exactly;
-/// so the force is the gradient of a potential and does no work around a closed loop.
+/// triangulation. F = K sum_T G_T n_T, with K a function of M alone and such that a plane gives Hertz
+/// exactly; so the force is the gradient of a potential and does no work around a closed loop.
 /// docs/theory/contact.md#patch
 ///
 /// One object per (sphere, wall); it keeps its arrays from step to step.
@@ -38,39 +38,42 @@ class PatchEvaluator {
   }
   /// Integral of g / R over the overlapped part of each candidate triangle, over the triangle's area [-].
   [[nodiscard]] std::span<const double> mean_overlap() const noexcept { return mean_g_; }
-  /// Patch of each candidate triangle (index into the last result, -1: none); empty when there is one patch at
-  /// most.
+  /// Patch of each candidate triangle (index into the last result, -1: none); empty when there is one patch
+  /// at most.
   [[nodiscard]] std::span<const int> clusters() const noexcept { return clusters_; }
   /// No point of a candidate triangle has a larger excess than this.
   [[nodiscard]] std::span<const double> bound() const noexcept { return bound_; }
 
  private:
-  void classify(const MeshCandidates& candidates, const Vec3& c, double R, double limit);
-  void add_rim(const MeshCandidates& candidates, std::size_t t, bool inside, const Vec3& c, double R);
+  void classify(const MeshCandidates& candidates, double R, double limit);
+  void add_caps(const MeshCandidates& candidates, std::size_t t, double R);
+  void add_rim(const MeshCandidates& candidates, std::size_t t, bool inside, double inverse, double R);
   void integrate_rim();
   void integrate_exactly(const MeshCandidates& candidates, const Vec3& c, double R);
   void deepest_points(const MeshCandidates& candidates, double R);
-  void single(const MeshCandidates& candidates, const Vec3& c, double R, const PairProperties& pair);
+  void single(const MeshCandidates& candidates, std::size_t padded, double R, const PairProperties& pair);
   void cluster(const MeshCandidates& candidates, const Vec3& c, double R, const PairProperties& pair);
 
-  std::vector<double> excess_, e0_, e1_, e2_, mean_g_, mean_m_, bound_, inside_;
+  std::vector<double> excess_, e0_, e1_, e2_, mean_g_, mean_m_, bound_, inside_, height_;
   std::vector<Patch> patches_;
   std::vector<int> clusters_;  // patch of each triangle; empty: one patch
+  std::size_t active_ = 0;     // no triangle from here on overlaps
 
   /// Triangles that the rim of the ball cuts, turned so that vertex 0 is the odd one out; padded.
   struct Rim {
-    std::vector<double> e0, e1, e2, l01, l12, l20, E, inside, g, m;
+    std::vector<double> e0, e1, e2, l01, l12, l20, slope, inside, beyond, g, m;
     std::vector<std::int32_t> triangle;
     std::size_t count = 0;
+    void resize(std::size_t capacity);
   } rim_;
-  std::vector<std::int32_t> general_;     // triangles for the general formula
-  std::vector<std::int32_t> deep_;        // triangles whose inside may be deeper than any node
+  std::vector<std::int32_t> general_;  // triangles for the general formula
+  std::vector<std::int32_t> deep_;     // triangles whose inside may be deeper than any node
   double deepest_excess_ = 0.0;
   int overlapped_ = 0;
 };
 
-/// The patch of summed integrals: {sum of mean_overlap * area vector, sum of the M-weight * (area vector . c -
-/// plane)}. Without force (triangles = 0) where they do not make a contact.
+/// The patch of summed integrals: {sum of mean_overlap * area vector, sum of the M-weight * (area vector . c
+/// - plane)}. Without force (triangles = 0) where they do not make a contact.
 [[nodiscard]] Patch make_patch(const std::array<double, 4>& sums, double deepest, int triangles, double R,
                                const PairProperties& pair) noexcept;
 

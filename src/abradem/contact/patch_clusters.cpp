@@ -60,20 +60,19 @@ TriangleLinks connect(const MeshCandidates& m, std::span<const Spot> spots, cons
 void PatchEvaluator::cluster(const MeshCandidates& candidates, const Vec3& c, double R,
                              const PairProperties& pair) {
   std::vector<Spot> spots;
-  for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
+  for (std::size_t t = 0; t < active_; ++t) {
     if (!(mean_g_[t] > 0.0)) continue;
-    const Vec3 nearest =
-        geometry::closest_point_on_triangle(c, corner(candidates, t, 0), corner(candidates, t, 1),
-                                            corner(candidates, t, 2))
-            .point;
+    const Vec3 nearest = geometry::closest_point_on_triangle(
+                             c, corner(candidates, t, 0), corner(candidates, t, 1), corner(candidates, t, 2))
+                             .point;
     const Vec3 offset = c - nearest;
     const double distance = norm(offset);
     spots.push_back({static_cast<std::int32_t>(t), normalized(offset), R - distance});
   }
   TriangleLinks links = connect(candidates, spots, c, R);
 
-  // Deepest first: each spot joins the first patch that it is connected to and faces like (or that it faces very
-  // much like, connected or not), else begins a patch.
+  // Deepest first: each spot joins the first patch that it is connected to and faces like (or that it faces
+  // very much like, connected or not), else begins a patch.
   std::ranges::sort(spots, [](const Spot& a, const Spot& b) {
     return a.depth != b.depth ? a.depth > b.depth : a.triangle < b.triangle;
   });
@@ -104,9 +103,10 @@ void PatchEvaluator::cluster(const MeshCandidates& candidates, const Vec3& c, do
     seed->sums[0] += mean_g_[t] * a.x;
     seed->sums[1] += mean_g_[t] * a.y;
     seed->sums[2] += mean_g_[t] * a.z;
-    seed->sums[3] += mean_m_[t] * (dot(a, c) - candidates.plane[t]);
+    seed->sums[3] += mean_m_[t] * height_[t];
   }
-  for (const Seed& seed : seeds) patches_.push_back(make_patch(seed.sums, seed.depth, seed.triangles, R, pair));
+  for (const Seed& seed : seeds)
+    patches_.push_back(make_patch(seed.sums, seed.depth, seed.triangles, R, pair));
   if (patches_.size() == 1) clusters_.clear();
 }
 

@@ -19,9 +19,9 @@ struct Means {
 };
 
 /// Means over a triangle of the two series, from the excess at its corners and its squared edges (units of
-/// R^2). Along a line the excess is a parabola of curvature -2, so mid-edges follow exactly, and so do the mean
-/// and the mean square of the excess (degree 4). The higher powers, a few per cent of the whole, are taken from
-/// these two: mean f = f(mean) + f''(mean) variance / 2.
+/// R^2). Along a line the excess is a parabola of curvature -2, so mid-edges follow exactly, and so do the
+/// mean and the mean square of the excess (degree 4). The higher powers, a few per cent of the whole, are
+/// taken from these two: mean f = f(mean) + f''(mean) variance / 2.
 ABRADEM_INLINE Means means_over(double e0, double e1, double e2, double l01, double l12, double l20) {
   const double m01 = 0.5 * (e0 + e1) + 0.25 * l01;
   const double m12 = 0.5 * (e1 + e2) + 0.25 * l12;
@@ -37,8 +37,21 @@ ABRADEM_INLINE Means means_over(double e0, double e1, double e2, double l01, dou
                              v * (3.0 * kOverlap[3] + m * (6.0 * kOverlap[4] + m * 10.0 * kOverlap[5])));
   const double rest_m =
       m * (m2 * (kWeighted[3] + m * (kWeighted[4] + m * (kWeighted[5] + m * kWeighted[6]))) +
-           v * (3.0 * kWeighted[3] + m * (6.0 * kWeighted[4] + m * (10.0 * kWeighted[5] + m * 15.0 * kWeighted[6]))));
+           v * (3.0 * kWeighted[3] +
+                m * (6.0 * kWeighted[4] + m * (10.0 * kWeighted[5] + m * 15.0 * kWeighted[6]))));
   return {kOverlap[1] * m + kOverlap[2] * mean2 + rest_g, kWeighted[2] * mean2 + rest_m};
+}
+
+/// Integrals of e and e^2 over the cap between a chord of half length w and its arc, h from the disc's
+/// centre:
+///   int e = 4/15 w^5/h - 4/105 w^7/h^3,  int e^2 = 16/105 w^7/h   (next terms relative (w/h)^4).
+struct Cap {
+  double e, e2;
+};
+ABRADEM_INLINE Cap cap_integrals(double w2, double E) {
+  const double h2_raw = E - w2, h2 = h2_raw > 0.25 * E ? h2_raw : 0.25 * E;
+  const double h = std::sqrt(h2), w5 = w2 * w2 * std::sqrt(w2);
+  return {w5 / h * (4.0 / 15.0 - (4.0 / 105.0) * w2 / h2), (16.0 / 105.0) * w5 * w2 / h};
 }
 
 }  // namespace
@@ -60,31 +73,55 @@ ABRADEM_DISPATCH double node_excess(const MeshCandidates& candidates, const Vec3
   return largest;
 }
 
-ABRADEM_DISPATCH void whole_triangles(std::size_t padded_count, const double* __restrict e0,
-                                      const double* __restrict e1, const double* __restrict e2,
-                                      const double* __restrict l01, const double* __restrict l12,
-                                      const double* __restrict l20, const double* __restrict longest, double R,
-                                      double limit, double* __restrict mean_g, double* __restrict mean_m,
-                                      double* __restrict bound, double* __restrict inside) noexcept {
-  const double inverse = 1.0 / (R * R);
-  for (std::size_t k = 0; k < padded_count; ++k) {
-    const Means means = means_over(e0[k], e1[k], e2[k], l01[k] * inverse, l12[k] * inverse, l20[k] * inverse);
-    const double low01 = e0[k] < e1[k] ? e0[k] : e1[k], low = low01 < e2[k] ? low01 : e2[k];
+ABRADEM_DISPATCH void survey(const MeshCandidates& candidates, const Vec3& c, double R,
+                             const double* __restrict e0, const double* __restrict e1,
+                             const double* __restrict e2, double* __restrict bound, double* __restrict inside,
+                             double* __restrict height) noexcept {
+  const double* __restrict ax = candidates.ax.data();
+  const double* __restrict ay = candidates.ay.data();
+  const double* __restrict az = candidates.az.data();
+  const double* __restrict plane = candidates.plane.data();
+  const double* __restrict longest = candidates.longest.data();
+  const double third = 1.0 / (3.0 * R * R);
+  const double cx = c.x, cy = c.y, cz = c.z;
+  const std::size_t n = candidates.padded_triangle_count();
+  for (std::size_t k = 0; k < n; ++k) {
     const double high01 = e0[k] > e1[k] ? e0[k] : e1[k], high = high01 > e2[k] ? high01 : e2[k];
-    const bool whole = (low > 0.0) & (longest[k] <= limit);
-    mean_g[k] = whole ? means.g : 0.0;
-    mean_m[k] = whole ? means.m : 0.0;
-    bound[k] = high + longest[k] * inverse * (1.0 / 3.0);
+    bound[k] = high + longest[k] * third;
     inside[k] = (e0[k] > 0.0 ? 1.0 : 0.0) + (e1[k] > 0.0 ? 1.0 : 0.0) + (e2[k] > 0.0 ? 1.0 : 0.0);
+    height[k] = ax[k] * cx + ay[k] * cy + az[k] * cz - plane[k];
   }
 }
 
-ABRADEM_DISPATCH void rim_triangles(std::size_t padded_count, const double* __restrict e0,
-                                    const double* __restrict e1, const double* __restrict e2,
-                                    const double* __restrict l01, const double* __restrict l12,
-                                    const double* __restrict l20, const double* __restrict E,
-                                    const double* __restrict inside, double* __restrict mean_g,
-                                    double* __restrict mean_m) noexcept {
+ABRADEM_DISPATCH void whole_triangles(std::size_t padded_count, const MeshCandidates& candidates,
+                                      const double* __restrict e0, const double* __restrict e1,
+                                      const double* __restrict e2, const double* __restrict inside, double R,
+                                      double limit, double* __restrict mean_g,
+                                      double* __restrict mean_m) noexcept {
+  const double* __restrict l01 = candidates.l01.data();
+  const double* __restrict l12 = candidates.l12.data();
+  const double* __restrict l20 = candidates.l20.data();
+  const double* __restrict longest = candidates.longest.data();
+  const double inverse = 1.0 / (R * R);
+  for (std::size_t k = 0; k < padded_count; ++k) {
+    const Means means = means_over(e0[k], e1[k], e2[k], l01[k] * inverse, l12[k] * inverse, l20[k] * inverse);
+    const bool whole = (inside[k] == 3.0) & (longest[k] <= limit);
+    mean_g[k] = whole ? means.g : 0.0;
+    mean_m[k] = whole ? means.m : 0.0;
+  }
+}
+
+ABRADEM_DISPATCH void rim_triangles(std::size_t padded_count, const RimTriangles& rim,
+                                    double* __restrict mean_g, double* __restrict mean_m) noexcept {
+  const double* __restrict e0 = rim.e0;
+  const double* __restrict e1 = rim.e1;
+  const double* __restrict e2 = rim.e2;
+  const double* __restrict l01 = rim.l01;
+  const double* __restrict l12 = rim.l12;
+  const double* __restrict l20 = rim.l20;
+  const double* __restrict slope = rim.slope;
+  const double* __restrict inside = rim.inside;
+  const double* __restrict beyond = rim.beyond;
   for (std::size_t k = 0; k < padded_count; ++k) {
     // The rim crosses edges 01 and 02 where e0 + t (e1 - e0 + l) - t^2 l = 0: the far root when vertex 0 is
     // inside, the near one when it is outside.
@@ -102,46 +139,41 @@ ABRADEM_DISPATCH void rim_triangles(std::size_t padded_count, const double* __re
     const Means all = means_over(e0[k], e1[k], e2[k], l01[k], l12[k], l20[k]);
     const double share = t1 * t2;
     const double outside = 1.0 - inside[k];
-    // Between chord and arc: with half chord w at distance h from the disc's centre,
-    //   int e = 4/15 w^5/h - 4/105 w^7/h^3,  int e^2 = 16/105 w^7/h   (next terms relative (w/h)^4).
-    const double w2 = 0.25 * chord, w = std::sqrt(w2), w5 = w2 * w2 * w;
-    const double h2 = E[k] - w2;
-    const double h = std::sqrt(h2 > 0.25 * E[k] ? h2 : 0.25 * E[k]);
-    const double s1 = w5 / h * (4.0 / 15.0 - (4.0 / 105.0) * w2 / (h * h));
-    const double s2 = (16.0 / 105.0) * w5 * w2 / h;
+    // Between chord and arc, less what of it lies beyond the edge 12.
+    const double E = 1.0 - slope[k] * slope[k];
+    const Cap arc = cap_integrals(0.25 * chord, E), far = cap_integrals(beyond[k], E);
     // Area in the same units, by Heron.
     const double area2 = 4.0 * l01[k] * l20[k] - two_cos * two_cos;
     const double inverse_area = 4.0 / std::sqrt(area2 > 1e-300 ? area2 : 1e-300);
-    mean_g[k] = outside * all.g + sign * share * corner.g + inverse_area * (kOverlap[1] * s1 + kOverlap[2] * s2);
-    mean_m[k] = outside * all.m + sign * share * corner.m + inverse_area * (kWeighted[2] * s2);
+    const double e = arc.e - far.e, e_2 = arc.e2 - far.e2;
+    mean_g[k] =
+        outside * all.g + sign * share * corner.g + inverse_area * (kOverlap[1] * e + kOverlap[2] * e_2);
+    mean_m[k] = outside * all.m + sign * share * corner.m + inverse_area * (kWeighted[2] * e_2);
   }
 }
 
-ABRADEM_DISPATCH std::array<double, 4> sums(const MeshCandidates& candidates, const Vec3& c,
-                                            std::span<const double> mean_g,
-                                            std::span<const double> mean_m) noexcept {
+std::array<double, 2> cap(double w2, double E, double area) noexcept {
+  const Cap c = cap_integrals(w2, E);
+  return {(kOverlap[1] * c.e + kOverlap[2] * c.e2) / area, kWeighted[2] * c.e2 / area};
+}
+
+ABRADEM_DISPATCH std::array<double, 4> sums(std::size_t padded_count, const MeshCandidates& candidates,
+                                            const double* __restrict height, const double* __restrict g,
+                                            const double* __restrict m) noexcept {
   const double* __restrict ax = candidates.ax.data();
   const double* __restrict ay = candidates.ay.data();
   const double* __restrict az = candidates.az.data();
-  const double* __restrict plane = candidates.plane.data();
-  const double* __restrict g = mean_g.data();
-  const double* __restrict m = mean_m.data();
-  double sx[kLanes]{}, sy[kLanes]{}, sz[kLanes]{}, sm[kLanes]{};
-  for (std::size_t t = 0; t < mean_g.size(); t += kLanes)
-    for (std::size_t l = 0; l < kLanes; ++l) {
-      const std::size_t k = t + l;
-      sx[l] += g[k] * ax[k];
-      sy[l] += g[k] * ay[k];
-      sz[l] += g[k] * az[k];
-      sm[l] += m[k] * (ax[k] * c.x + ay[k] * c.y + az[k] * c.z - plane[k]);
-    }
-  std::array<double, 4> total{};
-  for (std::size_t l = 0; l < kLanes; ++l) {
-    total[0] += sx[l];
-    total[1] += sy[l];
-    total[2] += sz[l];
-    total[3] += sm[l];
+  core::Lanes sx{}, sy{}, sz{}, sm{};
+  const auto lanes = [](const double* p) { return reinterpret_cast<const core::Lanes*>(p); };
+  for (std::size_t t = 0; t < padded_count; t += kLanes) {
+    const core::Lanes gt = *lanes(g + t);
+    sx += gt * *lanes(ax + t);
+    sy += gt * *lanes(ay + t);
+    sz += gt * *lanes(az + t);
+    sm += *lanes(m + t) * *lanes(height + t);
   }
+  const std::array<double, 4> total{ABRADEM_SUM_LANES(sx), ABRADEM_SUM_LANES(sy), ABRADEM_SUM_LANES(sz),
+                                    ABRADEM_SUM_LANES(sm)};
   return total;
 }
 

@@ -11,23 +11,37 @@
 namespace abradem::contact::kernels {
 
 /// excess[i] = 1 - |x_i - c|^2 / R^2, positive inside the ball. Returns the largest.
-double node_excess(const MeshCandidates& candidates, const Vec3& c, double R, std::span<double> excess) noexcept;
+double node_excess(const MeshCandidates& candidates, const Vec3& c, double R,
+                   std::span<double> excess) noexcept;
 
-/// For triangles wholly inside the ball with squared edges below `limit`: means over the triangle of g / R and
-/// of the weight of M (others: zero). For all: a bound that the excess nowhere exceeds in the triangle (squared
-/// distances are convex: corner + longest edge squared / 3), and how many corners lie inside (0 … 3).
-void whole_triangles(std::size_t padded_count, const double* e0, const double* e1, const double* e2,
-                     const double* l01, const double* l12, const double* l20, const double* longest, double R,
-                     double limit, double* mean_g, double* mean_m, double* bound, double* inside) noexcept;
+/// Per triangle: a bound that the excess nowhere exceeds (squared distances are convex: highest corner plus a
+/// third of the longest edge squared), how many corners lie inside (0 … 3), and the height of the ball's
+/// centre above the triangle's plane times its area.
+void survey(const MeshCandidates& candidates, const Vec3& c, double R, const double* e0, const double* e1,
+            const double* e2, double* bound, double* inside, double* height) noexcept;
 
-/// For triangles cut once by the rim, vertex 0 alone inside (inside = 1) or alone outside (inside = 0): the same
-/// means, taken over the overlapped part and related to the whole triangle. E = disc radius squared / R^2.
-void rim_triangles(std::size_t padded_count, const double* e0, const double* e1, const double* e2,
-                   const double* l01, const double* l12, const double* l20, const double* E,
-                   const double* inside, double* mean_g, double* mean_m) noexcept;
+/// For triangles wholly inside the ball with squared edges below `limit`: means over the triangle of g / R
+/// and of the weight of M (others: zero).
+void whole_triangles(std::size_t padded_count, const MeshCandidates& candidates, const double* e0,
+                     const double* e1, const double* e2, const double* inside, double R, double limit,
+                     double* mean_g, double* mean_m) noexcept;
 
-/// sum mean_g a_T (three components) and sum mean_m (a_T . c - plane_T).
-std::array<double, 4> sums(const MeshCandidates& candidates, const Vec3& c, std::span<const double> mean_g,
-                           std::span<const double> mean_m) noexcept;
+/// Triangles that the rim of the ball cuts, in units of R: vertex 0 alone inside (inside = 1) or alone
+/// outside (inside = 0); `beyond` is the largest excess on the edge 12 where both its ends are outside, else
+/// 0; `slope` = height / (area R), the centre's distance from the plane.
+struct RimTriangles {
+  const double *e0, *e1, *e2, *l01, *l12, *l20, *slope, *inside, *beyond;
+};
+/// The same means, taken over the overlapped part and related to the whole triangle.
+void rim_triangles(std::size_t padded_count, const RimTriangles& rim, double* mean_g,
+                   double* mean_m) noexcept;
+
+/// The two means of a cap: what a straight edge cuts off a disc of squared radius E (units of R^2), w2 =
+/// squared half chord, related to a triangle of twice_area (units of R^2).
+std::array<double, 2> cap(double w2, double E, double area) noexcept;
+
+/// Over the first triangles: sum mean_g a_T (three components) and sum mean_m height_T.
+std::array<double, 4> sums(std::size_t padded_count, const MeshCandidates& candidates, const double* height,
+                           const double* mean_g, const double* mean_m) noexcept;
 
 }  // namespace abradem::contact::kernels

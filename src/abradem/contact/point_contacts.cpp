@@ -22,13 +22,20 @@ int rank(Feature f) noexcept { return geometry::is_vertex(f) ? 2 : geometry::is_
 std::array<std::int32_t, 2> feature_vertices(const MeshCandidates& m, const PointContact& p) noexcept {
   const std::array<std::int32_t, 3> v{m.v0[at(p.triangle)], m.v1[at(p.triangle)], m.v2[at(p.triangle)]};
   switch (p.feature) {
-    case Feature::edge0: return {v[0], v[1]};
-    case Feature::edge1: return {v[1], v[2]};
-    case Feature::edge2: return {v[2], v[0]};
-    case Feature::vertex0: return {v[0], v[0]};
-    case Feature::vertex1: return {v[1], v[1]};
-    case Feature::vertex2: return {v[2], v[2]};
-    case Feature::face: break;
+    case Feature::edge0:
+      return {v[0], v[1]};
+    case Feature::edge1:
+      return {v[1], v[2]};
+    case Feature::edge2:
+      return {v[2], v[0]};
+    case Feature::vertex0:
+      return {v[0], v[0]};
+    case Feature::vertex1:
+      return {v[1], v[1]};
+    case Feature::vertex2:
+      return {v[2], v[2]};
+    case Feature::face:
+      break;
   }
   return {-1, -1};
 }
@@ -40,7 +47,8 @@ bool has_vertex(const MeshCandidates& m, std::int32_t t, std::int32_t v) noexcep
 /// Faces first, then edges, then vertices; the deepest first; the candidates' order last, so that the result
 /// does not depend on anything else.
 bool stronger(const PointContact& a, const PointContact& b) noexcept {
-  return std::tuple(rank(a.feature), -a.overlap, a.triangle) < std::tuple(rank(b.feature), -b.overlap, b.triangle);
+  return std::tuple(rank(a.feature), -a.overlap, a.triangle) <
+         std::tuple(rank(b.feature), -b.overlap, b.triangle);
 }
 
 }  // namespace
@@ -58,21 +66,22 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
     e2_[t] = excess_[at(candidates.v2[t])];
     bound_[t] = std::max({e0_[t], e1_[t], e2_[t]}) + candidates.longest[t] * inverse / 3.0;
     if (bound_[t] <= 0.0) continue;  // nowhere inside the ball
-    const auto closest = geometry::closest_point_on_triangle(c, candidates.node_position(at(candidates.v0[t])),
-                                                             candidates.node_position(at(candidates.v1[t])),
-                                                             candidates.node_position(at(candidates.v2[t])));
+    const auto closest = geometry::closest_point_on_triangle(
+        c, candidates.node_position(at(candidates.v0[t])), candidates.node_position(at(candidates.v1[t])),
+        candidates.node_position(at(candidates.v2[t])));
     const Vec3 offset = c - closest.point;
     const double distance = norm(offset);
     if (distance >= R || distance == 0.0) continue;
     // A triangle seen from behind belongs to the far side of the solid.
-    if (candidates.ax[t] * offset.x + candidates.ay[t] * offset.y + candidates.az[t] * offset.z < 0.0) continue;
+    if (candidates.ax[t] * offset.x + candidates.ay[t] * offset.y + candidates.az[t] * offset.z < 0.0)
+      continue;
     const auto local = static_cast<std::int32_t>(t);
     touched_.push_back({closest.point, offset / distance, R - distance, closest.feature, local, local});
   }
 }
 
-std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates, const Vec3& c,
-                                                               double R) {
+std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates,
+                                                               const Vec3& c, double R) {
   collect(candidates, c, R);
   std::sort(touched_.begin(), touched_.end(), stronger);
   accepted_.clear();
@@ -80,7 +89,8 @@ std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandida
     const auto [a, b] = feature_vertices(candidates, p);
     // Owned by a stronger contact that touches the same feature: a face around it, or itself once more.
     const bool owned = a >= 0 && std::ranges::any_of(accepted_, [&, a = a, b = b](const PointContact& q) {
-                         return has_vertex(candidates, q.triangle, a) && has_vertex(candidates, q.triangle, b) &&
+                         return has_vertex(candidates, q.triangle, a) &&
+                                has_vertex(candidates, q.triangle, b) &&
                                 (q.feature == Feature::face || norm2(q.point - p.point) < 1e-18 * R * R ||
                                  rank(q.feature) < rank(p.feature));
                        });
@@ -109,7 +119,8 @@ std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates&
     const auto [a, b] = feature_vertices(candidates, p);
     const auto set_holds_feature = [&, a = a, b = b](const PointContact& q) {
       return std::ranges::any_of(touched_, [&](const PointContact& t) {
-        return t.set == q.set && has_vertex(candidates, t.triangle, a) && has_vertex(candidates, t.triangle, b);
+        return t.set == q.set && has_vertex(candidates, t.triangle, a) &&
+               has_vertex(candidates, t.triangle, b);
       });
     };
     if (a < 0 || std::ranges::none_of(accepted_, set_holds_feature)) accepted_.push_back(p);

@@ -11,20 +11,20 @@ namespace abradem::contact {
 
 /// One point contact between a sphere and a mesh.
 struct PointContact {
-  Vec3 point;                 ///< nearest point of the surface [m]
-  Vec3 n;                     ///< unit vector from it to the centre
-  double overlap = 0.0;       ///< R - distance, > 0 [m]
+  Vec3 point;            ///< nearest point of the surface [m]
+  Vec3 n;                ///< unit vector from it to the centre
+  double overlap = 0.0;  ///< R - distance, > 0 [m]
   geometry::Feature feature = geometry::Feature::face;
   std::int32_t triangle = 0;  ///< local, in the candidates
   int set = 0;                ///< `resolved`: its connected flat set; otherwise its own number
 };
 
-/// The point-contact rules: what the sphere's ball touches, each feature once, face before edge before vertex.
-/// docs/theory/contact.md#point-contacts
+/// The point-contact rules: what the sphere's ball touches, each feature once, face before edge before
+/// vertex. docs/theory/contact.md#point-contacts
 class PointContactFinder {
  public:
-  /// Rule `per_triangle`: every triangle whose nearest point lies within R is a contact of its own; a shared edge
-  /// or vertex counts once, and not at all where a triangle around it is touched on its face.
+  /// Rule `per_triangle`: every triangle whose nearest point lies within R is a contact of its own; a shared
+  /// edge or vertex counts once, and not at all where a triangle around it is touched on its face.
   std::span<const PointContact> per_triangle(const MeshCandidates& candidates, const Vec3& c, double R);
 
   /// Rule `resolved`: one contact, the deepest, per connected set of overlapped triangles that lie within 5
@@ -45,7 +45,7 @@ class PointContactFinder {
   void collect(const MeshCandidates& candidates, const Vec3& c, double R);
   void find_flat_sets(const MeshCandidates& candidates);
 
-  std::vector<PointContact> touched_;   // nearest point of every overlapped triangle
+  std::vector<PointContact> touched_;  // nearest point of every overlapped triangle
   std::vector<PointContact> accepted_;
   std::vector<int> set_;
   std::vector<double> excess_, e0_, e1_, e2_, bound_;

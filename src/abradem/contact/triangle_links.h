@@ -7,8 +7,8 @@
 
 namespace abradem::contact {
 
-/// Disjoint sets of local triangles; the root of a set is its smallest member, so that results do not depend on
-/// the order of joining.
+/// Disjoint sets of local triangles; the root of a set is its smallest member, so that results do not depend
+/// on the order of joining.
 class TriangleLinks {
  public:
   explicit TriangleLinks(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }

@@ -10,10 +10,10 @@ namespace abradem {
 enum class ExitCode : int {
   ok = 0,
   internal = 1,
-  input = 2,        ///< command line or case file
-  geometry = 3,     ///< a mesh that cannot be read or used
-  unphysical = 4,   ///< the run left the range its equations hold in; the last good state is kept
-  io = 5,           ///< a file or folder cannot be read or written
+  input = 2,       ///< command line or case file
+  geometry = 3,    ///< a mesh that cannot be read or used
+  unphysical = 4,  ///< the run left the range its equations hold in; the last good state is kept
+  io = 5,          ///< a file or folder cannot be read or written
   interrupted = 130,
 };
 

@@ -5,8 +5,8 @@
 
 namespace abradem::core {
 
-/// Calls body(i) for i = 0 … count - 1, on all threads when there is enough to share out. The bodies must write
-/// to places of their own; then the result does not depend on the number of threads.
+/// Calls body(i) for i = 0 … count - 1, on all threads when there is enough to share out. The bodies must
+/// write to places of their own; then the result does not depend on the number of threads.
 template <typename Body>
 void parallel_for(std::size_t count, Body&& body) {
   constexpr std::size_t kWorthSharing = 9;

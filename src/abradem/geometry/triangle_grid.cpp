@@ -76,7 +76,8 @@ Rows TriangleGrid::bin(Index items, CellsOf&& cells_of_item) const {
   rows.items.resize(static_cast<std::size_t>(rows.start.back()));
   std::vector<Index> next(rows.start.begin(), rows.start.end() - 1);
   for (Index t = 0; t < items; ++t)
-    cells_of_item(t, [&](Index c) { rows.items[static_cast<std::size_t>(next[static_cast<std::size_t>(c)]++)] = t; });
+    cells_of_item(
+        t, [&](Index c) { rows.items[static_cast<std::size_t>(next[static_cast<std::size_t>(c)]++)] = t; });
   return rows;
 }
 
@@ -85,14 +86,17 @@ TriangleGrid::CellRange TriangleGrid::cells_of(const Vec3& low, const Vec3& high
     const double c = std::floor((x - origin) / cell_);
     return static_cast<std::int32_t>(std::clamp(c, 0.0, static_cast<double>(count - 1)));
   };
-  return {{cell(low.x, origin_.x, count_[0]), cell(low.y, origin_.y, count_[1]), cell(low.z, origin_.z, count_[2])},
+  return {{cell(low.x, origin_.x, count_[0]), cell(low.y, origin_.y, count_[1]),
+           cell(low.z, origin_.z, count_[2])},
           {cell(high.x, origin_.x, count_[0]), cell(high.y, origin_.y, count_[1]),
            cell(high.z, origin_.z, count_[2])}};
 }
 
 BoundingBox TriangleGrid::cell_box(std::int32_t i, std::int32_t j, std::int32_t k) const noexcept {
   const Vec3 low = origin_ + Vec3{i * cell_, j * cell_, k * cell_};
-  return {low, {std::min(low.x + cell_, top_.x), std::min(low.y + cell_, top_.y), std::min(low.z + cell_, top_.z)}};
+  return {
+      low,
+      {std::min(low.x + cell_, top_.x), std::min(low.y + cell_, top_.y), std::min(low.z + cell_, top_.z)}};
 }
 
 }  // namespace abradem::geometry

@@ -11,9 +11,9 @@
 namespace abradem::geometry {
 
 /// Uniform grid over a mesh that answers "which triangles may meet this region".
-/// Built once in a wall's own frame: turning the wall costs nothing, and wear that has moved vertices by at most
-/// d is covered by asking for a region grown by d. Build O(n); a query costs the cells and triangles near the
-/// region, whatever the size of the mesh.
+/// Built once in a wall's own frame: turning the wall costs nothing, and wear that has moved vertices by at
+/// most d is covered by asking for a region grown by d. Build O(n); a query costs the cells and triangles
+/// near the region, whatever the size of the mesh.
 ///
 /// A triangle smaller than a cell stands in the cell of its centroid; the few larger ones (flat parts of CAD
 /// models) stand in every cell that they meet.

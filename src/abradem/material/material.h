@@ -12,9 +12,9 @@ struct Material {
 
 /// What a Hertz-Mindlin contact needs of two materials.
 struct PairProperties {
-  double E_eff = 0.0;  ///< effective Young's modulus, 1/E_eff = sum (1 - nu^2) / E [Pa]
-  double G_eff = 0.0;  ///< effective shear modulus, 1/G_eff = sum (2 - nu) / G [Pa]
-  double beta = 0.0;   ///< damping ratio |ln e| / sqrt(ln^2 e + pi^2) [-]
+  double E_eff = 0.0;             ///< effective Young's modulus, 1/E_eff = sum (1 - nu^2) / E [Pa]
+  double G_eff = 0.0;             ///< effective shear modulus, 1/G_eff = sum (2 - nu) / G [Pa]
+  double beta = 0.0;              ///< damping ratio |ln e| / sqrt(ln^2 e + pi^2) [-]
   double static_friction = 0.0;   ///< mu [-]
   double rolling_friction = 0.0;  ///< mu_r [-]
 };

@@ -11,16 +11,17 @@
 
 namespace abradem::simulation {
 
-/// Finds the height h along the guide at which elastic forces plus sliding friction carry the load. Secant steps
-/// inside a bracket; the first step takes Hertz's stiffness times the ratio found at the last increment (a
-/// conforming groove is stiffer than the flat it began as).
+/// Finds the height h along the guide at which elastic forces plus sliding friction carry the load. Secant
+/// steps inside a bracket; the first step takes Hertz's stiffness times the ratio found at the last increment
+/// (a conforming groove is stiffer than the flat it began as).
 void Simulation::find_equilibrium(std::size_t p) {
-  constexpr double kTolerance = 1e-10;  // of the load: wear is linear in force, so the ledger's error is smaller
+  constexpr double kTolerance =
+      1e-10;  // of the load: wear is linear in force, so the ledger's error is smaller
   constexpr int kMostSteps = 400;
   const Vec3 guide = particles_.guide[p];
   const double load = norm(particles_.load[p]) + particles_.mass[p] * dot(setup_.run.gravity, guide);
   const double R = particles_.radius[p];
-  double h = 0.0;                                                // of this search [m], along the guide
+  double h = 0.0;                                                      // of this search [m], along the guide
   double low = -std::numeric_limits<double>::infinity(), high = -low;  // too light at low, too heavy at high
   double last_h = 0.0, last_excess = 0.0;
   bool has_last = false;
@@ -66,10 +67,11 @@ void Simulation::find_equilibrium(std::size_t p) {
     particles_.position[p] += (next - h) * guide;
     h = next;
   }
-  throw SimulationError(fmt::format(
-      "particle '{}', step {}: no height was found at which the walls carry its load of {:.4g} N; does it stand "
-      "above a wall, less than {:.3g} mm away?",
-      particles_.name[p], steps_, load, 1e3 * 0.1 * R));
+  throw SimulationError(
+      fmt::format("particle '{}', step {}: no height was found at which the walls carry its load of {:.4g} "
+                  "N; does it stand "
+                  "above a wall, less than {:.3g} mm away?",
+                  particles_.name[p], steps_, load, 1e3 * 0.1 * R));
 }
 
 }  // namespace abradem::simulation

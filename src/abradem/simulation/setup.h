@@ -14,15 +14,15 @@ namespace abradem::simulation {
 
 struct MaterialSetup {
   std::string name;
-  double density = 0.0;        ///< [kg/m^3]
-  double shear_modulus = 0.0;  ///< [Pa]
-  double poisson_ratio = 0.0;  ///< [-]
+  double density = 0.0;            ///< [kg/m^3]
+  double shear_modulus = 0.0;      ///< [Pa]
+  double poisson_ratio = 0.0;      ///< [-]
   std::optional<double> hardness;  ///< [Pa]; only to state k = alpha H
   bool operator==(const MaterialSetup&) const = default;
 };
 
 struct ContactSetup {
-  std::string first, second;  ///< material names, any order
+  std::string first, second;      ///< material names, any order
   double restitution = 1.0;       ///< [-]
   double static_friction = 0.0;   ///< [-]
   double rolling_friction = 0.0;  ///< [-] constant-torque model
@@ -81,16 +81,17 @@ enum class Guide { none, vertical };
 struct ParticleSetup {
   std::string name;
   std::string material;
-  double radius = 0.0;  ///< [m]
-  Vec3 position;        ///< [m]
-  Vec3 velocity;        ///< [m/s]
-  Vec3 spin;            ///< [rad/s]
+  double radius = 0.0;        ///< [m]
+  Vec3 position;              ///< [m]
+  Vec3 velocity;              ///< [m/s]
+  Vec3 spin;                  ///< [rad/s]
   Guide guide = Guide::none;  ///< vertical: a holder leaves only the motion along the load free, no spin
   Vec3 load;                  ///< constant force [N], besides gravity
   bool operator==(const ParticleSetup&) const = default;
 };
 
-/// A length of the run: a time, or a number of revolutions (cycles) of the first wall that turns (oscillates).
+/// A length of the run: a time, or a number of revolutions (cycles) of the first wall that turns
+/// (oscillates).
 struct Duration {
   double value = 0.0;
   bool in_revolutions = false;
@@ -110,9 +111,10 @@ struct RunSetup {
   Duration end;
   Method method = Method::dynamic;
   TimeStep time_step;
-  std::optional<double> increment;  ///< quasi_static: sliding distance per step [m]; default: chosen from the contact
-  Vec3 gravity;                     ///< [m/s^2]
-  std::uint64_t seed = 1;           ///< of the mesh generator and every random stream
+  std::optional<double>
+      increment;           ///< quasi_static: sliding distance per step [m]; default: chosen from the contact
+  Vec3 gravity;            ///< [m/s^2]
+  std::uint64_t seed = 1;  ///< of the mesh generator and every random stream
   bool operator==(const RunSetup&) const = default;
 };
 
@@ -132,9 +134,9 @@ struct Range {
 };
 /// What the laboratory found; only compared with, never fitted to, by a run.
 struct MeasurementSetup {
-  std::optional<MeanSd> wear_volume;   ///< [m^3]
-  std::optional<Range> depth, width;   ///< [m]
-  std::optional<double> revolutions;   ///< [-]
+  std::optional<MeanSd> wear_volume;  ///< [m^3]
+  std::optional<Range> depth, width;  ///< [m]
+  std::optional<double> revolutions;  ///< [-]
   bool operator==(const MeasurementSetup&) const = default;
 };
 

@@ -29,7 +29,8 @@ int index_of(const std::vector<T>& items, const std::string& name, const char* w
 double seconds_of(const Duration& duration, double period) {
   if (!duration.in_revolutions) return duration.value;
   if (!(period > 0.0))
-    throw InputError("a duration is given in revolutions, but no wall turns or oscillates; give it in seconds");
+    throw InputError(
+        "a duration is given in revolutions, but no wall turns or oscillates; give it in seconds");
   return duration.value * period;
 }
 
@@ -87,8 +88,10 @@ double Simulation::wear_coefficient(int abrader, int worn) const {
 void Simulation::add_particles() {
   for (const ParticleSetup& p : setup_.particles) {
     const int m = index_of(setup_.materials, p.material, "material");
-    if (!(p.radius > 0.0)) throw InputError(fmt::format("particle '{}': radius = {} m; must be > 0", p.name, p.radius));
-    const double mass = materials_[static_cast<std::size_t>(m)].density * 4.0 / 3.0 * pi * p.radius * p.radius * p.radius;
+    if (!(p.radius > 0.0))
+      throw InputError(fmt::format("particle '{}': radius = {} m; must be > 0", p.name, p.radius));
+    const double mass =
+        materials_[static_cast<std::size_t>(m)].density * 4.0 / 3.0 * pi * p.radius * p.radius * p.radius;
     const bool guided = p.guide == Guide::vertical;
     const Vec3 along = norm2(p.load) > 0.0 ? normalized(p.load) : Vec3{0.0, 0.0, -1.0};
     particles_.name.push_back(p.name);
@@ -111,7 +114,8 @@ void Simulation::add_particles() {
 void Simulation::choose_time_step() {
   const double every = seconds_of(setup_.output.every, period_);
   end_ = seconds_of(setup_.run.end, period_);
-  if (!(end_ > 0.0) || !(every > 0.0)) throw InputError("the run's end and the output's interval must be > 0");
+  if (!(end_ > 0.0) || !(every > 0.0))
+    throw InputError("the run's end and the output's interval must be > 0");
 
   double wanted = setup_.run.time_step.value;
   if (setup_.run.method == Method::quasi_static) {
@@ -120,12 +124,14 @@ void Simulation::choose_time_step() {
     for (std::size_t p = 0; p < particles_.size(); ++p)
       for (const Wall& wall : walls_) {
         if (particles_.guide[p] == Vec3{} || norm(particles_.load[p]) == 0.0)
-          throw InputError(fmt::format(
-              "method quasi_static: particle '{}' needs guide = \"vertical\" and a load", particles_.name[p]));
+          throw InputError(
+              fmt::format("method quasi_static: particle '{}' needs guide = \"vertical\" and a load",
+                          particles_.name[p]));
         if (!setup_.run.increment) {
           const double R = particles_.radius[p];
-          const double a = contact::contact_radius(
-              R, contact::hertz_overlap(pair(particles_.material[p], wall.material()), R, norm(particles_.load[p])));
+          const double a =
+              contact::contact_radius(R, contact::hertz_overlap(pair(particles_.material[p], wall.material()),
+                                                                R, norm(particles_.load[p])));
           increment = increment == 0.0 ? 0.2 * a : std::min(increment, 0.2 * a);
         }
         speed = std::max(speed, norm(wall.pose_at(0.0).velocity_at(particles_.position[p])));
@@ -135,15 +141,17 @@ void Simulation::choose_time_step() {
   } else if (setup_.run.time_step.of_rayleigh) {
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t p = 0; p < particles_.size(); ++p)
-      shortest = std::min(shortest, material::rayleigh_time(materials_[static_cast<std::size_t>(particles_.material[p])],
-                                                            particles_.radius[p]));
+      shortest = std::min(
+          shortest, material::rayleigh_time(materials_[static_cast<std::size_t>(particles_.material[p])],
+                                            particles_.radius[p]));
     wanted *= shortest;
   }
   if (!(wanted > 0.0) || !std::isfinite(wanted)) throw InputError("the time step must be > 0");
   // A whole number of steps per output, so that rows fall on whole revolutions.
   const double first = std::min(every, end_);
   const double count = std::max(1.0, std::ceil(first / wanted - 1e-9));
-  if (count > 1e15) throw InputError(fmt::format("a time step of {:.3g} s makes {:.3g} steps", wanted, count));
+  if (count > 1e15)
+    throw InputError(fmt::format("a time step of {:.3g} s makes {:.3g} steps", wanted, count));
   steps_per_output_ = static_cast<std::uint64_t>(count);
   dt_ = first / count;
   total_steps_ = static_cast<std::uint64_t>(std::llround(end_ / dt_));
@@ -183,9 +191,10 @@ void Simulation::find_contacts() {
   core::parallel_for(sphere_walls_.size(), [this](std::size_t k) {
     const std::size_t p = k / walls_.size(), w = k % walls_.size();
     const Vec3 c = poses_[w].to_body(particles_.position[p]);
-    const Vec3 v = poses_[w].turn_back(particles_.velocity[p] - poses_[w].velocity_at(particles_.position[p]));
-    sphere_walls_[k].find(walls_[w], c, v, particles_.radius[p], pair(particles_.material[p], walls_[w].material()),
-                          norm(particles_.load[p]), dt_);
+    const Vec3 v =
+        poses_[w].turn_back(particles_.velocity[p] - poses_[w].velocity_at(particles_.position[p]));
+    sphere_walls_[k].find(walls_[w], c, v, particles_.radius[p],
+                          pair(particles_.material[p], walls_[w].material()), norm(particles_.load[p]), dt_);
   });
 }
 
@@ -230,8 +239,8 @@ void Simulation::compute_sphere_pairs() {
     particles_.force[i] += force;
     particles_.force[j] -= force;
     const double I_i = 0.4 * m_i * R_i * R_i, I_j = 0.4 * m_j * R_j * R_j;
-    const Vec3 rolling = contact::rolling_torque(properties, R_eff, f.F_n, particles_.spin[i] - particles_.spin[j],
-                                                 I_i * I_j / (I_i + I_j), dt_);
+    const Vec3 rolling = contact::rolling_torque(
+        properties, R_eff, f.F_n, particles_.spin[i] - particles_.spin[j], I_i * I_j / (I_i + I_j), dt_);
     particles_.torque[i] += cross(-R_i * n, f.F_t) + rolling;
     particles_.torque[j] += cross(R_j * n, -f.F_t) - rolling;
   }
@@ -262,14 +271,15 @@ void Simulation::deform_walls() {
     wear::WearingSurface& surface = walls_[w].surface();
     if (setup.deformation == DeformationRule::paper) {
       paper_[w] += surface.deform_paper();
-    } else if ((steps_ + 1) % static_cast<std::uint64_t>(setup.deform_every) == 0 || steps_ + 1 >= total_steps_ ||
-               (steps_ + 1) % steps_per_output_ == 0) {
+    } else if ((steps_ + 1) % static_cast<std::uint64_t>(setup.deform_every) == 0 ||
+               steps_ + 1 >= total_steps_ || (steps_ + 1) % steps_per_output_ == 0) {
       surface.deform_conserving();
     }
     const wear::DeformGuards& guards = surface.guards();
     if (guards.fatal_steps > 0 || guards.flipped > 0)
       throw SimulationError(fmt::format(
-          "wall '{}', step {}, {:.6g} s: {} {}: one update of the shape is too deep for the mesh. Lower the wear "
+          "wall '{}', step {}, {:.6g} s: {} {}: one update of the shape is too deep for the mesh. Lower the "
+          "wear "
           "coefficient or spread it over more revolutions, or take a coarser mesh or a shorter step",
           setup.name, steps_, time(),
           guards.flipped > 0 ? "wear turned over triangle" : "wear moved by more than half a triangle vertex",
@@ -304,9 +314,10 @@ void Simulation::check_state() const {
   constexpr double kDeepest = 0.1;  // of the radius: Hertz's small contact is long gone
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     const auto fail = [&](const std::string& what) {
-      throw SimulationError(fmt::format("particle '{}', step {}, {:.6g} s: {}. Shorten the time step, or check the "
-                                        "load, the stiffness and the starting position",
-                                        particles_.name[p], steps_, time(), what));
+      throw SimulationError(
+          fmt::format("particle '{}', step {}, {:.6g} s: {}. Shorten the time step, or check the "
+                      "load, the stiffness and the starting position",
+                      particles_.name[p], steps_, time(), what));
     };
     if (!is_finite(particles_.position[p]) || !is_finite(particles_.velocity[p]))
       fail("its position or speed is no longer a number");
@@ -336,6 +347,12 @@ ForceSample Simulation::force_on(std::size_t p) const noexcept {
   return sample;
 }
 
+double Simulation::law_volume() const noexcept {
+  double sum = 0.0;
+  for (const double v : law_) sum += v;
+  return sum;
+}
+
 Ledger Simulation::ledger() {
   Ledger ledger;
   double conserving_law = 0.0, conserving_swept = 0.0;
@@ -350,11 +367,13 @@ Ledger Simulation::ledger() {
     ledger.deposited += wall.surface().deposited_volume();
     ledger.swept += swept;
     ledger.paper += paper_[w];
-    if (wall.setup().deformation == DeformationRule::conserving) conserving_law += law_[w], conserving_swept += swept;
+    if (wall.setup().deformation == DeformationRule::conserving)
+      conserving_law += law_[w], conserving_swept += swept;
   }
   if (ledger.law > 0.0) {
-    ledger.residual = std::max(std::abs(ledger.deposited - ledger.law), std::abs(conserving_swept - conserving_law)) /
-                      ledger.law;
+    ledger.residual =
+        std::max(std::abs(ledger.deposited - ledger.law), std::abs(conserving_swept - conserving_law)) /
+        ledger.law;
     ledger.kappa = ledger.swept / ledger.law;
   }
   return ledger;
@@ -380,8 +399,9 @@ std::uint64_t Simulation::state_hash() const {
 double Simulation::kinetic_energy() const noexcept {
   double energy = 0.0;
   for (std::size_t p = 0; p < particles_.size(); ++p)
-    energy += 0.5 * particles_.mass[p] * (norm2(particles_.velocity[p]) +
-                                          0.4 * particles_.radius[p] * particles_.radius[p] * norm2(particles_.spin[p]));
+    energy += 0.5 * particles_.mass[p] *
+              (norm2(particles_.velocity[p]) +
+               0.4 * particles_.radius[p] * particles_.radius[p] * norm2(particles_.spin[p]));
   return energy;
 }
 

@@ -36,11 +36,11 @@ struct Ledger {
 
 /// The contact forces of one step, summed over the walls, for one particle.
 struct ForceSample {
-  double time = 0.0;         ///< [s]
-  double normal = 0.0;       ///< |sum of F_n n| [N]
-  double tangential = 0.0;   ///< |sum of F_t| [N]
-  double overlap = 0.0;      ///< of the deepest contact [m]
-  int contacts = 0;          ///< elements in contact
+  double time = 0.0;        ///< [s]
+  double normal = 0.0;      ///< |sum of F_n n| [N]
+  double tangential = 0.0;  ///< |sum of F_t| [N]
+  double overlap = 0.0;     ///< of the deepest contact [m]
+  int contacts = 0;         ///< elements in contact
 };
 
 /// A limit on the time step: how far the run is from it.
@@ -64,8 +64,8 @@ class Simulation {
   explicit Simulation(Setup setup, const MeshSource& source = generate_mesh);
 
   /// One time step (`dynamic`) or one sliding increment (`quasi_static`).
-  /// The step's chapters: move_walls, find_contacts, compute_forces, accumulate_wear, deform_walls, integrate,
-  /// record (docs/architecture.md).
+  /// The step's chapters: move_walls, find_contacts, compute_forces, accumulate_wear, deform_walls,
+  /// integrate, record (docs/architecture.md).
   /// @throws SimulationError when the state has left the range the equations hold in
   void step();
 
@@ -91,6 +91,8 @@ class Simulation {
     return sphere_walls_[particle * walls_.size() + wall];
   }
   [[nodiscard]] Ledger ledger();
+  /// Volume worn so far by the law, all walls [m^3]; cheap.
+  [[nodiscard]] double law_volume() const noexcept;
   /// Forces of the last step on particle p.
   [[nodiscard]] ForceSample force_on(std::size_t p) const noexcept;
   /// Called after every step; for statistics and series.
@@ -148,7 +150,7 @@ class Simulation {
   std::function<void(const Simulation&)> observer_;
   std::vector<std::string> warnings_;
   std::vector<double> stiffness_ratio_;  // quasi_static: of each particle's contact, to Hertz's
-  double worst_damping_ = 0.0;  // largest 2 g + W met
+  double worst_damping_ = 0.0;           // largest 2 g + W met
   int most_contacts_ = 0;
 };
 

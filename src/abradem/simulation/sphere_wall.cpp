@@ -13,7 +13,8 @@ std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Mean of a candidate triangle's corners.
 Vec3 centroid(const contact::MeshCandidates& m, std::size_t t) noexcept {
-  return (m.node_position(at(m.v0[t])) + m.node_position(at(m.v1[t])) + m.node_position(at(m.v2[t]))) * (1.0 / 3.0);
+  return (m.node_position(at(m.v0[t])) + m.node_position(at(m.v1[t])) + m.node_position(at(m.v2[t]))) *
+         (1.0 / 3.0);
 }
 
 }  // namespace
@@ -25,8 +26,8 @@ void SphereWall::find(Wall& wall, const Vec3& c, const Vec3& v, double R, const 
     touch_plane(wall, c, R, pair);
     return;
   }
-  // The Hertz footprint reaches down to half its approach below the deepest point, which in a conforming groove
-  // lies outside the ball.
+  // The Hertz footprint reaches down to half its approach below the deepest point, which in a conforming
+  // groove lies outside the ball.
   const double reach = R + 0.5 * contact::hertz_overlap(pair, R, load);
   // Skin: some tens of steps of motion, but no more than the patch can hide in.
   const double v_n = std::abs(dot(v, axis_)), v_t = std::sqrt(std::max(0.0, norm2(v) - v_n * v_n));
@@ -46,20 +47,31 @@ void SphereWall::find(Wall& wall, const Vec3& c, const Vec3& v, double R, const 
       const contact::Patch& p = patches[i];
       if (p.triangles == 0) continue;
       elements_ += p.triangles;
-      touches_.push_back({.n = p.n, .point = c - R * p.n, .overlap = p.overlap, .elastic_force = p.elastic_force,
-                          .a = contact::contact_radius(R, p.overlap), .deepest = p.deepest, .key = -1,
-                          .part = static_cast<int>(i), .force = {}});
+      touches_.push_back({.n = p.n,
+                          .point = c - R * p.n,
+                          .overlap = p.overlap,
+                          .elastic_force = p.elastic_force,
+                          .a = contact::contact_radius(R, p.overlap),
+                          .deepest = p.deepest,
+                          .key = -1,
+                          .part = static_cast<int>(i),
+                          .force = {}});
     }
   } else {
     const bool resolved = wall.setup().contact == ContactRule::resolved;
-    const auto points = resolved ? points_.resolved(candidates_, c, R) : points_.per_triangle(candidates_, c, R);
+    const auto points =
+        resolved ? points_.resolved(candidates_, c, R) : points_.per_triangle(candidates_, c, R);
     elements_ = static_cast<int>(points.size());
     for (const contact::PointContact& p : points)
-      touches_.push_back({.n = p.n, .point = p.point, .overlap = p.overlap,
+      touches_.push_back({.n = p.n,
+                          .point = p.point,
+                          .overlap = p.overlap,
                           .elastic_force = contact::hertz_force(pair, R, p.overlap),
-                          .a = contact::contact_radius(R, p.overlap), .deepest = p.overlap,
+                          .a = contact::contact_radius(R, p.overlap),
+                          .deepest = p.overlap,
                           .key = resolved ? -1 : candidates_.triangle[at(p.triangle)],
-                          .part = resolved ? p.set : p.triangle, .force = {}});
+                          .part = resolved ? p.set : p.triangle,
+                          .force = {}});
   }
   if (!touches_.empty()) axis_ = -touches_.front().n;
 }
@@ -69,9 +81,14 @@ void SphereWall::touch_plane(const Wall& wall, const Vec3& c, double R, const co
   const double overlap = R - dot(c - plane.position, plane.normal);
   if (overlap <= 0.0) return;
   elements_ = 1;
-  touches_.push_back({.n = plane.normal, .point = c - R * plane.normal, .overlap = overlap,
+  touches_.push_back({.n = plane.normal,
+                      .point = c - R * plane.normal,
+                      .overlap = overlap,
                       .elastic_force = contact::hertz_force(pair, R, overlap),
-                      .a = contact::contact_radius(R, overlap), .deepest = overlap, .key = -1, .part = 0,
+                      .a = contact::contact_radius(R, overlap),
+                      .deepest = overlap,
+                      .key = -1,
+                      .part = 0,
                       .force = {}});
 }
 
@@ -87,8 +104,8 @@ contact::TangentialHistory& SphereWall::recall(const Touch& touch, ContactRule r
                                                            : -norm2(m.point - touch.point);
     if (score > best_score) best = &m, best_score = score;
   }
-  kept_.push_back({touch.n, touch.point, touch.key, best != nullptr ? best->history : contact::TangentialHistory{},
-                   false});
+  kept_.push_back({touch.n, touch.point, touch.key,
+                   best != nullptr ? best->history : contact::TangentialHistory{}, false});
   if (best != nullptr) best->used = true;
   return kept_.back().history;
 }
@@ -144,11 +161,18 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
     for (std::size_t t = 0; t < mask_.size(); ++t) mask_[t] = parts[t] == touch.part;
     mask = mask_;
   }
-  const wear::OverlapField field =
-      resolved ? wear::OverlapField{points_.corner_excess(0), points_.corner_excess(1), points_.corner_excess(2),
-                                    points_.bound(), R, touch.deepest}
-               : wear::OverlapField{patches_.corner_excess(0), patches_.corner_excess(1),
-                                    patches_.corner_excess(2), patches_.bound(), R, touch.deepest};
+  const wear::OverlapField field = resolved ? wear::OverlapField{points_.corner_excess(0),
+                                                                 points_.corner_excess(1),
+                                                                 points_.corner_excess(2),
+                                                                 points_.bound(),
+                                                                 R,
+                                                                 touch.deepest}
+                                            : wear::OverlapField{patches_.corner_excess(0),
+                                                                 patches_.corner_excess(1),
+                                                                 patches_.corner_excess(2),
+                                                                 patches_.bound(),
+                                                                 R,
+                                                                 touch.deepest};
   const auto& shares =
       wall.setup().footprint == Footprint::hertz
           ? footprint_.hertz(candidates_, field, contact::hertz_overlap(pair, R, touch.force.F_n), mask)
@@ -162,18 +186,20 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
   }
 }
 
-/// Adds what the centroids of the elements in contact have moved since they were last noted. Under `patch` all
-/// worn elements stay in contact while the candidates last, so once per gathering is enough.
+/// Adds what the centroids of the elements in contact have moved since they were last noted. Under `patch`
+/// all worn elements stay in contact while the candidates last, so once per gathering is enough.
 void SphereWall::add_centroid_motion(const Wall& wall) {
   if (wall.setup().deformation != DeformationRule::conserving) return;
   const auto touched = [&](std::size_t t) {
     if (wall.setup().contact == ContactRule::patch) return patches_.mean_overlap()[t] > 0.0;
-    return std::ranges::any_of(touches_, [&](const Touch& touch) { return touch.part == static_cast<int>(t); });
+    return std::ranges::any_of(touches_,
+                               [&](const Touch& touch) { return touch.part == static_cast<int>(t); });
   };
   const geometry::TriangleMesh& mesh = wall.surface().mesh();
   for (std::size_t t = 0; t < centroid_.size(); ++t) {
     const geometry::Triangle& v = mesh.triangles[at(candidates_.triangle[t])];
-    const Vec3 now = (mesh.vertices[at(v[0])] + mesh.vertices[at(v[1])] + mesh.vertices[at(v[2])]) * (1.0 / 3.0);
+    const Vec3 now =
+        (mesh.vertices[at(v[0])] + mesh.vertices[at(v[1])] + mesh.vertices[at(v[2])]) * (1.0 / 3.0);
     if (now != centroid_[t] && touched(t)) centroid_volume_ += norm(now - centroid_[t]) * candidates_.area[t];
     centroid_[t] = now;
   }

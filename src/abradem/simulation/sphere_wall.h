@@ -22,8 +22,8 @@ struct ForceAndTorque {
   Vec3 force, torque;
 };
 
-/// Everything between one sphere and one wall: what it touches, what each contact remembers, the force, and the
-/// wear it leaves. The step calls find, then compute, then deposit.
+/// Everything between one sphere and one wall: what it touches, what each contact remembers, the force, and
+/// the wear it leaves. The step calls find, then compute, then deposit.
 class SphereWall {
  public:
   /// One contact, in the wall's frame.
@@ -41,17 +41,19 @@ class SphereWall {
 
   /// Finds the contacts of a sphere at c, in the wall's frame, moving at v there.
   /// @param load a force of the size to be expected, for the margin of the search [N]
-  void find(Wall& wall, const Vec3& c, const Vec3& v, double R, const contact::PairProperties& pair, double load,
-            double dt);
+  void find(Wall& wall, const Vec3& c, const Vec3& v, double R, const contact::PairProperties& pair,
+            double load, double dt);
 
   /// Forces of the contacts found [world frame], and their histories one step on.
   ForceAndTorque compute(const Wall& wall, const geometry::Pose& pose, const SphereState& sphere,
                          const contact::PairProperties& pair, double dt);
 
-  /// Books the wear of one step: law volume of each contact, shared out under it. Returns the law's volume [m^3].
+  /// Books the wear of one step: law volume of each contact, shared out under it. Returns the law's volume
+  /// [m^3].
   /// @param slip_of (Touch) -> sliding distance of this step [m]
   template <typename SlipOf>
-  double deposit(Wall& wall, double alpha_s, double R, const contact::PairProperties& pair, SlipOf&& slip_of) {
+  double deposit(Wall& wall, double alpha_s, double R, const contact::PairProperties& pair,
+                 SlipOf&& slip_of) {
     double volume = 0.0;
     for (const Touch& touch : touches_) {
       const double dV = wear::archard_volume(alpha_s, {std::max(touch.force.F_n, 0.0), slip_of(touch)});

@@ -46,13 +46,13 @@ std::vector<StabilityLimit> Simulation::limits() const {
       const double load = norm(particles_.load[p]) + mass * norm(setup_.run.gravity);
       const double overlap = contact::hertz_overlap(properties, R, load);
       // Speed towards the wall at the start, or what the load gives over its own Hertz overlap.
-      const double given = norm(particles_.velocity[p]);
+      const double given = norm(setup_.particles[p].velocity);
       const double speed = given > 0.0 ? given : std::sqrt(2.0 * load * overlap / mass);
-      if (speed > 0.0)
-        hertz = std::max(hertz, dt_ / material::hertz_time(properties.E_eff, R, mass, speed));
+      if (speed > 0.0) hertz = std::max(hertz, dt_ / material::hertz_time(properties.E_eff, R, mass, speed));
       const double S = contact::normal_stiffness(properties, contact::contact_radius(R, overlap));
       if (steps_ == 0)
-        number = std::max(number, damped_number(S, contact::damping_coefficient(properties, S, mass), mass, dt_));
+        number =
+            std::max(number, damped_number(S, contact::damping_coefficient(properties, S, mass), mass, dt_));
     }
   }
   return {{"time step / Rayleigh time", rayleigh, 0.4, "-"},

@@ -16,13 +16,20 @@ using std::numbers::pi;
 geometry::TriangleMesh generate_mesh(const MeshSetup& mesh, std::uint64_t seed) {
   geometry::TriangleMesh made;
   switch (mesh.shape) {
-    case MeshShape::annulus: made = geometry::make_annulus(mesh.inner, mesh.outer, mesh.size, seed); break;
-    case MeshShape::disc: made = geometry::make_disc(mesh.outer, mesh.size, seed); break;
-    case MeshShape::plate: made = geometry::make_plate(mesh.length, mesh.width, mesh.size, seed); break;
+    case MeshShape::annulus:
+      made = geometry::make_annulus(mesh.inner, mesh.outer, mesh.size, seed);
+      break;
+    case MeshShape::disc:
+      made = geometry::make_disc(mesh.outer, mesh.size, seed);
+      break;
+    case MeshShape::plate:
+      made = geometry::make_plate(mesh.length, mesh.width, mesh.size, seed);
+      break;
     case MeshShape::file:
-      throw InputError(fmt::format("mesh file '{}': no reader was given; pass a MeshSource that reads files",
-                                   mesh.file));
-    case MeshShape::plane: throw InputError("an analytic plane has no mesh");
+      throw InputError(
+          fmt::format("mesh file '{}': no reader was given; pass a MeshSource that reads files", mesh.file));
+    case MeshShape::plane:
+      throw InputError("an analytic plane has no mesh");
   }
   for (Vec3& p : made.vertices) p += mesh.position;
   return made;
@@ -49,8 +56,10 @@ geometry::Pose Wall::pose_at(double time) const noexcept {
   const MotionSetup& m = setup_.motion;
   geometry::Pose pose;
   switch (m.kind) {
-    case MotionKind::none: break;
-    case MotionKind::rotation: return geometry::rotation_pose(m.axis, m.center, m.rate * time, m.rate);
+    case MotionKind::none:
+      break;
+    case MotionKind::rotation:
+      return geometry::rotation_pose(m.axis, m.center, m.rate * time, m.rate);
     case MotionKind::translation:
       pose.shift = time * m.velocity;
       pose.velocity = m.velocity;

@@ -18,9 +18,9 @@ using MeshSource = std::function<geometry::TriangleMesh(const MeshSetup&, std::u
 /// Meshes the generated shapes. @throws InputError for `file` and `plane`, which have none
 [[nodiscard]] geometry::TriangleMesh generate_mesh(const MeshSetup& mesh, std::uint64_t seed);
 
-/// A wall: a surface in its own frame that wears, and a rigid motion that carries it. Particles are brought into
-/// the wall's frame, contact is done there and forces are carried back, so that turning a disc of a million
-/// triangles costs nothing.
+/// A wall: a surface in its own frame that wears, and a rigid motion that carries it. Particles are brought
+/// into the wall's frame, contact is done there and forces are carried back, so that turning a disc of a
+/// million triangles costs nothing.
 class Wall {
  public:
   Wall(const WallSetup& setup, int material, const MeshSource& source, std::uint64_t seed);

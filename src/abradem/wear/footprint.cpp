@@ -30,8 +30,8 @@ struct OverlapWeight {
   }
 };
 
-/// Mid-edge rule, for triangles small against the footprint: the weight at the three mid-edges, each shared by
-/// the two vertices of its edge.
+/// Mid-edge rule, for triangles small against the footprint: the weight at the three mid-edges, each shared
+/// by the two vertices of its edge.
 template <typename Weight>
 ABRADEM_INLINE void mid_edges(std::size_t n, const double* __restrict e0, const double* __restrict e1,
                               const double* __restrict e2, const double* __restrict l01,
@@ -49,13 +49,13 @@ ABRADEM_INLINE void mid_edges(std::size_t n, const double* __restrict e0, const 
   }
 }
 
-#define ABRADEM_MID_EDGES(name, Weight)                                                                        \
-  ABRADEM_DISPATCH void name(std::size_t n, const double* __restrict e0, const double* __restrict e1,          \
-                             const double* __restrict e2, const double* __restrict l01,                        \
-                             const double* __restrict l12, const double* __restrict l20,                       \
-                             const double* __restrict area, double* __restrict w0, double* __restrict w1,      \
-                             double* __restrict w2, const Weight weight) {                                     \
-    mid_edges(n, e0, e1, e2, l01, l12, l20, area, w0, w1, w2, weight);                                         \
+#define ABRADEM_MID_EDGES(name, Weight)                                                                   \
+  ABRADEM_DISPATCH void name(std::size_t n, const double* __restrict e0, const double* __restrict e1,     \
+                             const double* __restrict e2, const double* __restrict l01,                   \
+                             const double* __restrict l12, const double* __restrict l20,                  \
+                             const double* __restrict area, double* __restrict w0, double* __restrict w1, \
+                             double* __restrict w2, const Weight weight) {                                \
+    mid_edges(n, e0, e1, e2, l01, l12, l20, area, w0, w1, w2, weight);                                    \
   }
 ABRADEM_MID_EDGES(mid_edges_of, HertzWeight)
 ABRADEM_MID_EDGES(mid_edges_of, OverlapWeight)
@@ -71,8 +71,8 @@ const FootprintShares& FootprintIntegrator::hertz(const MeshCandidates& candidat
   return shares_;
 }
 
-const FootprintShares& FootprintIntegrator::overlap(const MeshCandidates& candidates, const OverlapField& field,
-                                                    std::span<const char> mask) {
+const FootprintShares& FootprintIntegrator::overlap(const MeshCandidates& candidates,
+                                                    const OverlapField& field, std::span<const char> mask) {
   select(candidates, field, 0.0, mask);
   integrate(std::sqrt(2.0 * field.R * std::max(field.deepest, 0.0)), OverlapWeight{});
   return shares_;
@@ -109,10 +109,10 @@ void FootprintIntegrator::integrate(double reach, const Weight& weight) {
   const double ratio = kPointsPerReach * std::sqrt(longest_) / (2.0 * reach);
   const std::size_t n = shares_.triangle.size();
   if (ratio <= 1.0) {
-    const std::size_t padded = std::min(e0_.size(), (n + MeshCandidates::kLanes - 1) / MeshCandidates::kLanes *
-                                                        MeshCandidates::kLanes);
-    mid_edges_of(padded, e0_.data(), e1_.data(), e2_.data(), l01_.data(), l12_.data(), l20_.data(), area_.data(),
-                 w0_.data(), w1_.data(), w2_.data(), weight);
+    const std::size_t padded = std::min(
+        e0_.size(), (n + MeshCandidates::kLanes - 1) / MeshCandidates::kLanes * MeshCandidates::kLanes);
+    mid_edges_of(padded, e0_.data(), e1_.data(), e2_.data(), l01_.data(), l12_.data(), l20_.data(),
+                 area_.data(), w0_.data(), w1_.data(), w2_.data(), weight);
   } else {
     const int parts = std::min(kFinest, static_cast<int>(std::ceil(2.0 * ratio)));
     for (std::size_t k = 0; k < n; ++k) subdivide(k, parts, weight);
@@ -127,8 +127,8 @@ void FootprintIntegrator::subdivide(std::size_t k, int n, const Weight& weight) 
   const double third = 1.0 / 3.0, step = 1.0 / n;
   const auto add = [&](double b1, double b2) {
     const double b0 = 1.0 - b1 - b2;
-    const double e = b0 * e0_[k] + b1 * e1_[k] + b2 * e2_[k] + b0 * b1 * l01_[k] + b1 * b2 * l12_[k] +
-                     b2 * b0 * l20_[k];
+    const double e =
+        b0 * e0_[k] + b1 * e1_[k] + b2 * e2_[k] + b0 * b1 * l01_[k] + b1 * b2 * l12_[k] + b2 * b0 * l20_[k];
     const double w = weight(e);
     sum0 += w * b0;
     sum1 += w * b1;

@@ -9,8 +9,8 @@
 
 namespace abradem::wear {
 
-/// How the wear of one contact falls on the triangles under it: shares that sum to one, and of each share what
-/// falls to the triangle's three vertices (the shape functions' moments of the pressure).
+/// How the wear of one contact falls on the triangles under it: shares that sum to one, and of each share
+/// what falls to the triangle's three vertices (the shape functions' moments of the pressure).
 struct FootprintShares {
   std::vector<std::int32_t> triangle;  ///< local, in the candidates
   std::vector<double> share;           ///< [-]
@@ -30,8 +30,8 @@ class FootprintIntegrator {
  public:
   /// Hertz: weight sqrt(max(0, d_e - 2 (g_max - g))), the pressure of an elastic half-space pressed by the
   /// approach d_e; only differences of g enter, so the height of the ball does not matter.
-  const FootprintShares& hertz(const contact::MeshCandidates& candidates, const OverlapField& field, double d_e,
-                               std::span<const char> mask = {});
+  const FootprintShares& hertz(const contact::MeshCandidates& candidates, const OverlapField& field,
+                               double d_e, std::span<const char> mask = {});
   /// Overlap: weight max(0, g), a bed of springs.
   const FootprintShares& overlap(const contact::MeshCandidates& candidates, const OverlapField& field,
                                  std::span<const char> mask = {});

@@ -234,14 +234,15 @@ double WearingSurface::deform_paper() {
     const Vec3 step = a * (pending_element_[at(t)] / (area * area));  // eq. 6 along eq. 9's normal
     for (const Index v : mesh_.triangles[at(t)]) moves.emplace_back(v, step);
   }
-  // Each vertex moves by the sum over its worn elements; displacements are collected first, so that all normals
-  // are those of the beginning of the step.
+  // Each vertex moves by the sum over its worn elements; displacements are collected first, so that all
+  // normals are those of the beginning of the step.
   std::ranges::stable_sort(moves, {}, &std::pair<Index, Vec3>::first);
   std::vector<Vec3> before;
   std::vector<double> area_before;
   for (const Index t : touched_elements_) {
     const Triangle& v = mesh_.triangles[at(t)];
-    before.push_back((mesh_.vertices[at(v[0])] + mesh_.vertices[at(v[1])] + mesh_.vertices[at(v[2])]) * (1.0 / 3.0));
+    before.push_back((mesh_.vertices[at(v[0])] + mesh_.vertices[at(v[1])] + mesh_.vertices[at(v[2])]) *
+                     (1.0 / 3.0));
     area_before.push_back(norm(area_vector(mesh_, t)));
   }
   double furthest = 0.0;
@@ -260,7 +261,8 @@ double WearingSurface::deform_paper() {
   for (std::size_t k = 0; k < touched_elements_.size(); ++k) {
     const Index t = touched_elements_[k];
     const Triangle& v = mesh_.triangles[at(t)];
-    const Vec3 after = (mesh_.vertices[at(v[0])] + mesh_.vertices[at(v[1])] + mesh_.vertices[at(v[2])]) * (1.0 / 3.0);
+    const Vec3 after =
+        (mesh_.vertices[at(v[0])] + mesh_.vertices[at(v[1])] + mesh_.vertices[at(v[2])]) * (1.0 / 3.0);
     paper_volume += norm(after - before[k]) * area_before[k];
     pending_element_[at(t)] = 0.0;
   }
@@ -304,7 +306,8 @@ std::vector<Index> WearingSurface::worn_triangles() const {
 void WearingSurface::check_orientation() {
   for (const Index t : worn_triangles()) {
     const Triangle& v = mesh_.triangles[at(t)];
-    const Vec3 before = cross(reference_[at(v[1])] - reference_[at(v[0])], reference_[at(v[2])] - reference_[at(v[0])]);
+    const Vec3 before =
+        cross(reference_[at(v[1])] - reference_[at(v[0])], reference_[at(v[2])] - reference_[at(v[0])]);
     if (dot(before, area_vector(mesh_, t)) <= 0.0) {
       ++guards_.flipped;
       guards_.worst_triangle = t;

@@ -13,20 +13,22 @@ using geometry::Index;
 
 /// How an update may go wrong, counted; the run reports the counts and stops at the fatal ones.
 struct DeformGuards {
-  std::uint64_t deep_steps = 0;    ///< a vertex moved by more than a tenth of its smallest altitude in one update
-  std::uint64_t fatal_steps = 0;   ///< … by more than half of it
-  std::uint64_t flipped = 0;       ///< a triangle turned by more than 90 degrees from its first orientation
-  Index worst_vertex = -1;         ///< of the last fatal step
-  Index worst_triangle = -1;       ///< last flipped
+  std::uint64_t deep_steps =
+      0;  ///< a vertex moved by more than a tenth of its smallest altitude in one update
+  std::uint64_t fatal_steps = 0;  ///< … by more than half of it
+  std::uint64_t flipped = 0;      ///< a triangle turned by more than 90 degrees from its first orientation
+  Index worst_vertex = -1;        ///< of the last fatal step
+  Index worst_triangle = -1;      ///< last flipped
 };
 
 /// A surface that loses material: a mesh, where it started, and what each element has lost.
 ///
-/// Wear arrives as volumes of elements (`deposit`) and is turned into motion of the vertices by one of two rules
-/// (docs/theory/wear.md#deformation):
+/// Wear arrives as volumes of elements (`deposit`) and is turned into motion of the vertices by one of two
+/// rules (docs/theory/wear.md#deformation):
 ///   deform_conserving   each vertex moves against its first normal; what the surface sweeps is the volume
 ///                       deposited, exactly;
-///   deform_paper        eq. 6-9 of the paper to the letter: the three vertices of an element each move by its
+///   deform_paper        eq. 6-9 of the paper to the letter: the three vertices of an element each move by
+///   its
 ///                       full depth dV / A, along its normal; on a regular mesh this sweeps six times dV.
 class WearingSurface {
  public:
@@ -54,20 +56,21 @@ class WearingSurface {
   /// Books wear of one element for the rule of the paper, which knows elements only.
   void deposit_element(Index triangle, double volume);
 
-  /// Moves the vertices so that the surface sweeps what was deposited since the last update. Where the surface
-  /// was flat this is linear and exact by construction; elsewhere one Newton iteration on the exact cubic of
-  /// each connected worn patch closes it to round-off.
+  /// Moves the vertices so that the surface sweeps what was deposited since the last update. Where the
+  /// surface was flat this is linear and exact by construction; elsewhere one Newton iteration on the exact
+  /// cubic of each connected worn patch closes it to round-off.
   void deform_conserving();
   /// Moves the vertices by eq. 6-9 of the paper.
-  /// @return sum of |centroid displacement| * area over the elements worn since the last update [paper, eq. 10-12]
+  /// @return sum of |centroid displacement| * area over the elements worn since the last update [paper, eq.
+  /// 10-12]
   double deform_paper();
 
   /// Wear booked per element since the start [m^3].
   [[nodiscard]] std::span<const double> element_volume() const noexcept { return volume_; }
   /// Sum of element_volume, in the order of elements [m^3].
   [[nodiscard]] double deposited_volume() const;
-  /// Volume between the surface as it was and as it is, by geometry alone [m^3]; see swept_between. Where wear
-  /// moved an open border that is not flat, the sum over the updates, since there the path matters.
+  /// Volume between the surface as it was and as it is, by geometry alone [m^3]; see swept_between. Where
+  /// wear moved an open border that is not flat, the sum over the updates, since there the path matters.
   [[nodiscard]] double swept_volume() const;
   /// Triangles with a displaced vertex, ascending.
   [[nodiscard]] std::vector<Index> worn_triangles() const;
@@ -89,24 +92,25 @@ class WearingSurface {
   geometry::TriangleMesh mesh_;
   std::vector<Vec3> reference_;
   geometry::Rows stars_;
-  std::vector<Vec3> direction_;        // outward unit normal at each vertex, from the reference
-  std::vector<double> inverse_area_;   // flat stars: 1 / (third of the star's area) [1/m^2]; else 0
-  std::vector<double> limit_;          // a tenth of the smallest altitude at each vertex [m]
-  std::vector<double> sink_;           // distance moved against direction_ [m]
-  std::vector<double> pending_;        // volume waiting at each vertex [m^3]
-  std::vector<Index> touched_;         // vertices with pending volume
-  std::vector<double> volume_;         // per element, in all [m^3]
+  std::vector<Vec3> direction_;       // outward unit normal at each vertex, from the reference
+  std::vector<double> inverse_area_;  // flat stars: 1 / (third of the star's area) [1/m^2]; else 0
+  std::vector<double> limit_;         // a tenth of the smallest altitude at each vertex [m]
+  std::vector<double> sink_;          // distance moved against direction_ [m]
+  std::vector<double> pending_;       // volume waiting at each vertex [m^3]
+  std::vector<Index> touched_;        // vertices with pending volume
+  std::vector<double> volume_;        // per element, in all [m^3]
   std::vector<double> pending_element_;
   std::vector<Index> touched_elements_;
-  std::vector<char> open_border_;      // vertex on an open border whose star is not flat
+  std::vector<char> open_border_;  // vertex on an open border whose star is not flat
   bool flat_ = true, border_moved_ = false;
   double swept_by_updates_ = 0.0, odometer_ = 0.0, deepest_sink_ = 0.0;
   std::uint64_t revision_ = 1;
   DeformGuards guards_;
 };
 
-/// Volume that a triangle sweeps against its normal when its corners move straight from `from` to `to`, all at
-/// once [m^3]: the integral of its area vector times the mean velocity, a cubic, exact for open surfaces too.
+/// Volume that a triangle sweeps against its normal when its corners move straight from `from` to `to`, all
+/// at once [m^3]: the integral of its area vector times the mean velocity, a cubic, exact for open surfaces
+/// too.
 [[nodiscard]] double swept_between(const Vec3 (&from)[3], const Vec3 (&to)[3]) noexcept;
 
 }  // namespace abradem::wear

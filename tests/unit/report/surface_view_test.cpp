@@ -61,8 +61,8 @@ TEST(WornSurface, TheMapIsTheDepthAtEachAngleAndRadius) {
   for (int v = 0; v < map.v_count; ++v) {
     for (int u = 0; u < map.u_count; ++u) {
       const double depth = map.depth_um[static_cast<std::size_t>(v * map.u_count + u)];
-      // Linear in triangles of 0.1 mm: at its border the groove bends by 43 um/mm, which an edge of up to 0.12 mm
-      // misses by a quarter of its length.
+      // Linear in triangles of 0.1 mm: at its border the groove bends by 43 um/mm, which an edge of up to
+      // 0.12 mm misses by a quarter of its length.
       EXPECT_NEAR(depth, groove_um(map.v_first + v * map.v_step - 22.0), 1.3) << u << ' ' << v;
     }
   }

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/cli/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include "abradem/core/error.h"
+
+namespace abradem::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+/// "1:02:03" or "4:05".
+std::string clock_time(double seconds) {
+  if (!std::isfinite(seconds) || seconds > 3.6e6) return "a long time";
+  const auto s = static_cast<long>(std::lround(seconds));
+  return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)
+                   : fmt::format("{}:{:02}", s / 60, s % 60);
+}
+
+/// A count with its thousands set apart: 1,250,000.
+std::string grouped(double count) {
+  const std::string digits = fmt::format("{:.0f}", count);
+  std::string out;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) out += ',';
+    out += digits[i];
+  }
+  return out;
+}
+
+}  // namespace
+
+RunLog::RunLog(const std::filesystem::path& path, bool quiet)
+    : file_(std::fopen(path.c_str(), "w")), quiet_(quiet), terminal_(!quiet && isatty(STDERR_FILENO) != 0) {
+  if (file_ == nullptr)
+    throw IoError(fmt::format("cannot write '{}': {}", path.string(), std::strerror(errno)));
+}
+
+RunLog::~RunLog() { std::fclose(file_); }
+
+void RunLog::write(std::string_view text) {
+  fmt::print(file_, "{:10.3f} s  {}\n", seconds_between(start_, Clock::now()), text);
+  std::fflush(file_);
+}
+
+void RunLog::line(std::string_view text) {
+  write(text);
+  if (quiet_) return;
+  clear_status();
+  fmt::print(stderr, "{}\n", text);
+}
+
+void RunLog::warning(std::string_view text) {
+  write(fmt::format("warning: {}", text));
+  clear_status();
+  fmt::print(stderr, "warning: {}\n", text);
+}
+
+void RunLog::status(std::string_view text) {
+  fmt::print(stderr, "\r\033[K{}", text);
+  std::fflush(stderr);
+  status_shown_ = true;
+}
+
+void RunLog::clear_status() {
+  if (status_shown_) fmt::print(stderr, "\r\033[K");
+  status_shown_ = false;
+}
+
+std::string Progress::state(const simulation::Simulation& run) const {
+  const double elapsed = seconds_between(start_, Clock::now());
+  const auto steps = static_cast<double>(run.steps()), total = static_cast<double>(run.total_steps());
+  const double left = steps > 0.0 ? elapsed * (total - steps) / steps : 0.0;
+  const std::string where =
+      run.turns() ? fmt::format("revolution {:.2f}", run.revolution()) : fmt::format("{:.4g} s", run.time());
+  return fmt::format("{}  {:.0f} %  {} steps/s  wear {:.4g} mm^3  {} left", where, 100.0 * steps / total,
+                     grouped(steps / std::max(elapsed, 1e-9)), 1e9 * run.law_volume(), clock_time(left));
+}
+
+void Progress::update(const simulation::Simulation& run) {
+  const Clock::time_point now = Clock::now();
+  const double interval = log_.on_terminal() ? 0.1 : 10.0;
+  if (seconds_between(shown_, now) < interval) return;
+  shown_ = now;
+  if (log_.on_terminal())
+    log_.status(state(run));
+  else
+    log_.line(state(run));
+}
+
+void Progress::output(const simulation::Simulation& run, const io::RunRecorder& recorder) {
+  const auto& row = *recorder.last();
+  const std::string depth = row.depth_mean > 0.0 ? fmt::format("  depth {:.3f} um  width {:.3f} mm",
+                                                               1e6 * row.depth_mean, 1e3 * row.width_mean)
+                                                 : "";
+  log_.line(fmt::format("{}{}  normal force {:.4g} N", state(run), depth, row.force_mean));
+}
+
+void summarise(const io::RunRecord& record, const std::filesystem::path& folder, RunLog& log) {
+  const simulation::Ledger& l = record.ledger;
+  if (!record.error.empty()) log.warning(record.error);
+  log.line(fmt::format("{} after {} steps in {:.2f} s ({} steps/s)", record.status, record.steps,
+                       record.wall_seconds,
+                       grouped(static_cast<double>(record.steps) / std::max(record.stepping_seconds, 1e-9))));
+  log.line(
+      fmt::format("ledger: law {:.9g} mm^3, deposited {:.9g}, swept {:.9g}; residual {:.2g}, kappa {:.6g}",
+                  1e9 * l.law, 1e9 * l.deposited, 1e9 * l.swept, l.residual, l.kappa));
+  log.line(fmt::format("state {:016x}", record.state_hash));
+  log.line(fmt::format("report: {}", (folder / "report.html").string()));
+}
+
+}  // namespace abradem::cli

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "abradem/io/run_record.h"
+#include "abradem/io/run_recorder.h"
+#include "abradem/simulation/simulation.h"
+
+namespace abradem::cli {
+
+/// Lines of a run: into run.log with the time since the start, and onto stderr unless quiet. Warnings always
+/// reach stderr.
+class RunLog {
+ public:
+  /// @throws IoError when the file cannot be written
+  RunLog(const std::filesystem::path& path, bool quiet);
+  ~RunLog();
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
+
+  void line(std::string_view text);
+  void warning(std::string_view text);
+  [[nodiscard]] bool quiet() const noexcept { return quiet_; }
+  /// stderr is a terminal that can show a line that changes.
+  [[nodiscard]] bool on_terminal() const noexcept { return terminal_; }
+  /// Wipes the changing line, if there is one; what follows starts on a clean line.
+  void clear_status();
+  void status(std::string_view text);
+
+ private:
+  void write(std::string_view text);
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::FILE* file_ = nullptr;
+  bool quiet_, terminal_, status_shown_ = false;
+};
+
+/// Speed, wear so far and time left: a changing line on a terminal, a plain line now and then elsewhere.
+class Progress {
+ public:
+  explicit Progress(RunLog& log) : log_(log) {}
+  void update(const simulation::Simulation& run);
+  /// A line per output.
+  void output(const simulation::Simulation& run, const io::RunRecorder& recorder);
+  void finish() { log_.clear_status(); }
+
+ private:
+  [[nodiscard]] std::string state(const simulation::Simulation& run) const;
+  RunLog& log_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), shown_ = start_;
+};
+
+/// The end of a run in a few lines.
+void summarise(const io::RunRecord& record, const std::filesystem::path& folder, RunLog& log);
+
+}  // namespace abradem::cli

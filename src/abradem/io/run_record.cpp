@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/io/run_record.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "abradem/core/version.h"
+#include "abradem/io/wear_tables.h"
+
+namespace abradem::io {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMm = 1e3, kMm3 = 1e9;
+
+/// What does not exist is null: JSON has no not-a-number.
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json ledger_json(const simulation::Ledger& ledger) {
+  return {{"law_volume_mm3", number(kMm3 * ledger.law)},
+          {"deposited_volume_mm3", number(kMm3 * ledger.deposited)},
+          {"swept_volume_mm3", number(kMm3 * ledger.swept)},
+          {"residual_relative", number(ledger.residual)},
+          {"kappa", number(ledger.kappa)}};
+}
+
+Json results_json(const RunRecord& record) {
+  Json results = Json::object();
+  if (!record.last) return results;
+  const auto& names = revolution_columns();
+  const auto values = revolution_values(*record.last);
+  for (std::size_t i = 0; i < names.size(); ++i) results[names[i]] = number(values[i]);
+  return results;
+}
+
+Json measurement_json(const simulation::MeasurementSetup& m) {
+  Json json = Json::object();
+  if (m.wear_volume)
+    json["wear_volume_mm3"] = {{"mean", kMm3 * m.wear_volume->mean}, {"sd", kMm3 * m.wear_volume->sd}};
+  if (m.depth) json["depth_mm"] = {{"low", kMm * m.depth->low}, {"high", kMm * m.depth->high}};
+  if (m.width) json["width_mm"] = {{"low", kMm * m.width->low}, {"high", kMm * m.width->high}};
+  if (m.revolutions) json["revolutions"] = *m.revolutions;
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const RunRecord& record, const simulation::Setup& setup) {
+  Json json;
+  json["status"] = record.status;
+  json["exit_code"] = record.exit_code;
+  if (!record.error.empty()) json["error"] = record.error;
+  json["case_title"] = setup.title;
+  json["version"] = core::version();
+  json["commit"] = core::commit();
+  json["compiler"] = fmt::format("{} {}", core::compiler(), core::compiler_flags());
+  json["threads"] = record.threads;
+  json["seed"] = setup.run.seed;
+  json["steps"] = record.steps;
+  json["wall_seconds"] = number(record.wall_seconds);
+  json["steps_per_second"] = number(
+      record.stepping_seconds > 0.0 ? static_cast<double>(record.steps) / record.stepping_seconds : 0.0);
+  json["state_hash"] = fmt::format("{:016x}", record.state_hash);
+  json["ledger"] = ledger_json(record.ledger);
+  json["results"] = results_json(record);
+  Json limits = Json::array();
+  for (const auto& limit : record.limits)
+    limits.push_back(
+        {{"name", limit.name}, {"value", number(limit.value)}, {"limit", limit.limit}, {"ok", limit.ok()}});
+  json["limits"] = limits;
+  json["warnings"] = record.warnings;
+  if (setup.measurement) json["measurement"] = measurement_json(*setup.measurement);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace abradem::io

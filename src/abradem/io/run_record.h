@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "abradem/analysis/revolution_row.h"
+#include "abradem/simulation/simulation.h"
+
+namespace abradem::io {
+
+/// The record of a run, as it stands in run.json. Keys: docs/reference/output.md.
+struct RunRecord {
+  std::string status = "completed";  ///< completed, interrupted or failed
+  int exit_code = 0;
+  std::string error;  ///< message of a failed run
+  int threads = 1;
+  double wall_seconds = 0.0;      ///< of the whole run, output included
+  double stepping_seconds = 0.0;  ///< of the steps alone
+  std::uint64_t steps = 0;
+  std::uint64_t state_hash = 0;
+  simulation::Ledger ledger;
+  std::optional<analysis::RevolutionRow> last;
+  std::vector<simulation::StabilityLimit> limits;
+  std::vector<std::string> warnings;
+};
+
+/// The record as JSON text.
+[[nodiscard]] std::string to_json(const RunRecord& record, const simulation::Setup& setup);
+
+}  // namespace abradem::io

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/io/run_recorder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "abradem/core/error.h"
+
+namespace abradem::io {
+
+namespace {
+
+using simulation::MotionKind;
+using simulation::Simulation;
+
+constexpr int kProfiles = 8;          // positions whose whole profile is written
+constexpr double kForceRows = 500.0;  // of the thinned series, per output
+
+std::filesystem::path made(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw IoError(fmt::format("cannot create the folder '{}': {}", folder.string(), error.message()));
+  return folder;
+}
+
+/// How far each vertex has sunk below where it began [um].
+std::vector<double> depths_um(const wear::WearingSurface& surface) {
+  std::vector<double> depth(surface.mesh().vertices.size());
+  for (std::size_t v = 0; v < depth.size(); ++v)
+    depth[v] = 1e6 * norm(surface.mesh().vertices[v] - surface.reference()[v]);
+  return depth;
+}
+
+}  // namespace
+
+RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder)
+    : run_(run),
+      folder_(std::move(folder)),
+      tables_(made(folder_ / "tables")),
+      force_(folder_ / "tables" / "force.csv",
+             {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts"}) {
+  made(folder_ / "vtk");
+  const auto& walls = run.walls();
+  for (std::size_t w = 0; w < walls.size() && !worn_wall_; ++w)
+    if (!walls[w].is_plane() && walls[w].setup().deformation != simulation::DeformationRule::none)
+      worn_wall_ = w;
+  for (std::size_t p = run.particles().size(); p-- > 0;)
+    if (norm2(run.particles().load[p]) > 0.0) watched_particle_ = p;
+  force_stride_ = static_cast<std::uint64_t>(
+      std::max(1.0, std::floor(static_cast<double>(run.steps_per_output()) / kForceRows)));
+  run.on_step([this](const Simulation& now) { observe(now); });
+  write_frame();
+}
+
+void RunRecorder::observe(const Simulation& run) {
+  if (run.particles().size() == 0) return;
+  const simulation::ForceSample f = run.force_on(watched_particle_);
+  normal_force_.add(f.normal);
+  if (run.steps() % force_stride_ == 0)
+    force_.row(
+        {f.time, run.revolution(), f.normal, f.tangential, 1e6 * f.overlap, static_cast<double>(f.contacts)});
+}
+
+std::vector<analysis::Contour> RunRecorder::cut_contours() const {
+  const simulation::Wall& wall = run_.walls()[*worn_wall_];
+  const auto& mesh = wall.surface().mesh();
+  const auto reference = wall.surface().reference();
+  const auto region = analysis::worn_region(mesh, reference);
+  const simulation::MotionSetup& motion = wall.setup().motion;
+  const int count = run_.setup().output.contours;
+  std::vector<analysis::Contour> contours;
+  if (motion.kind == MotionKind::rotation) {
+    contours = analysis::cut_contours(
+        mesh, reference, region,
+        analysis::RotaryCuts{.axis = motion.axis, .center = motion.center, .count = count});
+  } else {
+    // The groove runs along the motion; heights count along the wall's mean normal.
+    Vec3 normal;
+    for (geometry::Index t = 0; t < mesh.triangle_count(); ++t) normal += area_vector(mesh, t);
+    const Vec3 direction = motion.kind == MotionKind::translation ? motion.velocity : motion.amplitude;
+    if (norm2(direction) == 0.0 || norm2(normal) == 0.0) return {};
+    const auto extent = analysis::worn_extent(mesh, reference, region, {}, direction);
+    if (!extent) return {};
+    contours = analysis::cut_contours(
+        mesh, reference, region,
+        analysis::StraightCuts{.axis = normal, .direction = direction, .count = count, .along = *extent});
+    // The tables name sections by angle: here 0 to 360 degrees from one end of the groove to the other.
+    const double length = extent->high - extent->low;
+    for (auto& c : contours)
+      c.angle = length > 0.0 ? 2.0 * std::numbers::pi * (c.angle - extent->low) / length : 0.0;
+  }
+  const std::size_t every = std::max<std::size_t>(1, contours.size() / kProfiles);
+  for (std::size_t i = 0; i < contours.size(); ++i)
+    if (i % every != 0) contours[i].profile.clear();
+  return contours;
+}
+
+void RunRecorder::output() {
+  ledger_ = run_.ledger();
+  const std::vector<analysis::Contour> contours =
+      worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
+  last_ = analysis::revolution_row(run_.revolution(), run_.time(),
+                                   {ledger_.law, ledger_.swept, ledger_.paper}, contours, normal_force_);
+  normal_force_ = {};
+  tables_.add(*last_, contours);
+  write_frame();
+}
+
+void RunRecorder::write_frame() {
+  const double time = run_.time();
+  for (std::size_t w = 0; w < run_.walls().size(); ++w) {
+    const simulation::Wall& wall = run_.walls()[w];
+    if (wall.is_plane()) continue;
+    // A wall that keeps its shape is written once.
+    const bool still = wall.setup().deformation == simulation::DeformationRule::none && frame_ > 0;
+    const std::string file = fmt::format("vtk/{}_{:04}.vtp", wall.setup().name, still ? 0 : frame_);
+    if (!still) {
+      const std::vector<double> depth = depths_um(wall.surface());
+      std::vector<double> volume(wall.surface().element_volume().begin(),
+                                 wall.surface().element_volume().end());
+      for (double& v : volume) v *= 1e18;
+      const VtpArray points[]{{"depth_um", depth, 1}};
+      const VtpArray cells[]{{"wear_volume_um3", volume, 1}};
+      write_vtp(folder_ / file, wall.surface().mesh(), points, cells);
+    }
+    frames_.push_back({time, file, static_cast<int>(w)});
+  }
+  if (run_.particles().size() > 0) {
+    const std::string file = fmt::format("vtk/particles_{:04}.vtp", frame_);
+    write_vtp_spheres(folder_ / file, run_.particles().position, run_.particles().radius);
+    frames_.push_back({time, file, static_cast<int>(run_.walls().size())});
+  }
+  write_pvd(folder_ / "series.pvd", frames_);
+  ++frame_;
+}
+
+/// tables/wear.csv: the elements of the worn wall that lost material, in its reference numbering.
+void RunRecorder::write_elements() const {
+  CsvWriter table(folder_ / "tables" / "wear.csv",
+                  {"element", "x_mm", "y_mm", "z_mm", "area_mm2", "wear_volume_mm3", "wear_depth_um"});
+  if (worn_wall_) {
+    const wear::WearingSurface& surface = run_.walls()[*worn_wall_].surface();
+    const auto volume = surface.element_volume();
+    for (std::size_t t = 0; t < volume.size(); ++t) {
+      if (volume[t] == 0.0) continue;
+      const auto& v = surface.mesh().triangles[t];
+      const auto at = [&](std::size_t k) { return surface.reference()[static_cast<std::size_t>(v[k])]; };
+      const Vec3 centre = (at(0) + at(1) + at(2)) * (1.0 / 3.0);
+      const double area = 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
+      table.row({static_cast<double>(t), 1e3 * centre.x, 1e3 * centre.y, 1e3 * centre.z, 1e6 * area,
+                 1e9 * volume[t], 1e6 * volume[t] / area});
+    }
+  }
+  table.close();
+}
+
+void RunRecorder::close() {
+  run_.on_step({});
+  tables_.close();
+  force_.close();
+  write_elements();
+}
+
+}  // namespace abradem::io
