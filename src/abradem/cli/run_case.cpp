@@ -112,15 +112,30 @@ void report_limits(const std::vector<simulation::StabilityLimit>& limits, RunLog
   }
 }
 
+/// Adds the time of its life to a sum, also when an exception ends it.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum), start_(Clock::now()) {}
+  ~Stopwatch() { sum_ += seconds_since(start_); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& sum_;
+  Clock::time_point start_;
+};
+
 /// Steps to the end, with an output whenever one is due. @return false when a signal ended it early
 bool run_to_end(Simulation& run, io::RunRecorder& recorder, Progress& progress, double& stepping_seconds) {
   while (!run.finished()) {
-    const Clock::time_point start = Clock::now();
-    const bool due = run.advance([&] {
-      progress.update(run);
-      return stop_requested == 0;
-    });
-    stepping_seconds += seconds_since(start);
+    bool due = false;
+    {
+      const Stopwatch stopwatch(stepping_seconds);
+      due = run.advance([&] {
+        progress.update(run);
+        return stop_requested == 0;
+      });
+    }
     if (due || stop_requested != 0) {
       recorder.output();
       progress.output(run, recorder);

@@ -67,11 +67,11 @@ void Simulation::find_equilibrium(std::size_t p) {
     particles_.position[p] += (next - h) * guide;
     h = next;
   }
-  throw SimulationError(
-      fmt::format("particle '{}', step {}: no height was found at which the walls carry its load of {:.4g} "
-                  "N; does it stand "
-                  "above a wall, less than {:.3g} mm away?",
-                  particles_.name[p], steps_, load, 1e3 * 0.1 * R));
+  throw SimulationError(fmt::format(
+      "particle '{}', step {}, {:.6g} s: no height was found at which the walls carry its load of "
+      "{:.4g} N. Has it slid off the wall? It must stand over a wall during the whole run, and "
+      "start on it or less than {:.3g} mm above",
+      particles_.name[p], steps_, time(), load, 1e3 * 0.1 * R));
 }
 
 }  // namespace abradem::simulation
