@@ -60,6 +60,12 @@ class MeshCandidates {
 
   std::vector<Index> node;               ///< mesh vertex of each local node
   std::vector<double> x, y, z;           ///< node positions, padded [m]
+  std::vector<double> node_area;         ///< third of the area of the triangles around, padded [m^2]
+  std::vector<double> bx, by, bz;        ///< third of their area vectors, padded [m^2]
+  std::vector<std::int32_t> star_start;  ///< local triangles around node i: star[star_start[i]] … (CSR)
+  std::vector<std::int32_t> star;
+  Vec3 mean_normal;                      ///< of all candidates, unit
+  Vec3 mean_point;                       ///< of the nodes inside the ball when gathered, by overlap [m]
   std::vector<Index> triangle;           ///< mesh triangle of each local triangle
   std::vector<std::int32_t> v0, v1, v2;  ///< local nodes of each triangle, padded
   std::vector<double> ax, ay, az;        ///< area vectors, padded [m^2]
@@ -67,10 +73,14 @@ class MeshCandidates {
   std::vector<double> l01, l12, l20;     ///< squared edge lengths, padded [m^2]
   std::vector<double> longest;           ///< largest of the three [m^2]
   std::vector<double> area;              ///< [m^2]
+  double longest_edge2 = 0.0;            ///< largest of `longest` [m^2]
 
  private:
   void gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
               const CandidateSkin& skin);
+  void order_outwards(double furthest);
+  void link_nodes();
+  void place_mean_plane(const Vec3& c, double reach) noexcept;
   void fetch_positions(const geometry::TriangleMesh& mesh) noexcept;
   void measure_triangles() noexcept;
 
@@ -79,7 +89,8 @@ class MeshCandidates {
   CandidateSkin built_skin_;
   double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0;
-  std::vector<std::pair<double, Index>> found_;  // scratch
+  std::vector<std::pair<double, Index>> found_;  // scratch: squared distance from the axis, triangle
+  std::vector<Index> ordered_;                   // scratch
   std::vector<std::int32_t> local_;              // scratch: local number of a mesh vertex, or -1
 };
 

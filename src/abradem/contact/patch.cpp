@@ -49,12 +49,54 @@ std::span<const Patch> PatchEvaluator::evaluate(const MeshCandidates& candidates
                                                 const PairProperties& pair) {
   patches_.clear();
   clusters_.clear();
-  const std::size_t triangles = candidates.padded_triangle_count();
   excess_.resize(candidates.x.size());
+  largest_excess_ = kernels::node_excess(candidates, c, R, excess_);
+  if (!evaluate_nodes(candidates, c, R, pair)) evaluate_triangles(candidates, c, R, pair);
+  return patches_;
+}
+
+/// The nodal way; false where it does not apply.
+bool PatchEvaluator::evaluate_nodes(const MeshCandidates& candidates, const Vec3& c, double R,
+                                    const PairProperties& pair) {
+  if (!candidates.nearly_flat() || !(largest_excess_ > 0.0) || largest_excess_ > kLargestFastExcess ||
+      candidates.longest_edge2 > kLargestFastEdge2 * largest_excess_ * R * R)
+    return false;
+  const double overlap = R - dot(candidates.mean_normal, c - candidates.mean_point);
+  if (!(overlap > 0.0)) return false;
+  const kernels::NodeSums s = kernels::node_sums(candidates, c, R, excess_, scratch_);
+  // The nodal rule errs by some tenths of a per cent of what it integrates, so that must be a small part.
+  constexpr double kLargestDifference = 0.3;
+  const double along = dot(s.G, candidates.mean_normal);
+  if (std::abs(along - s.G_plane) > kLargestDifference * along) return false;
+
+  const OverlapIntegrals plane = overlap_of_plane(overlap, R);
+  const Vec3 G = R * s.G + (plane.G - R * s.G_plane) * candidates.mean_normal;
+  const double M = R * s.M + (plane.M - R * s.M_plane);
+
+  // The deepest point lies in a triangle of the deepest node.
+  deepest_excess_ = largest_excess_;
+  const auto node =
+      static_cast<std::size_t>(std::find(excess_.begin(), excess_.end(), largest_excess_) - excess_.begin());
+  const double inverse = 1.0 / (R * R);
+  for (auto k = candidates.star_start[node]; k < candidates.star_start[node + 1]; ++k) {
+    const auto t = static_cast<std::size_t>(candidates.star[static_cast<std::size_t>(k)]);
+    deepest_excess_ =
+        std::max(deepest_excess_, triangle_excess(excess_[static_cast<std::size_t>(candidates.v0[t])],
+                                                  excess_[static_cast<std::size_t>(candidates.v1[t])],
+                                                  excess_[static_cast<std::size_t>(candidates.v2[t])],
+                                                  candidates.l01[t] * inverse, candidates.l12[t] * inverse,
+                                                  candidates.l20[t] * inverse));
+  }
+  if (const Patch patch = make_patch(G, M, depth_of(deepest_excess_, R), R, pair); patch.elastic_force > 0.0)
+    patches_.push_back(patch);
+  return true;
+}
+
+void PatchEvaluator::evaluate_triangles(const MeshCandidates& candidates, const Vec3& c, double R,
+                                        const PairProperties& pair) {
+  const std::size_t triangles = candidates.padded_triangle_count();
   for (auto* array : {&e0_, &e1_, &e2_, &mean_g_, &mean_m_, &bound_, &inside_, &height_})
     array->resize(triangles);
-
-  const double node_excess = kernels::node_excess(candidates, c, R, excess_);
   for (std::size_t t = 0; t < triangles; ++t) {
     e0_[t] = excess_[static_cast<std::size_t>(candidates.v0[t])];
     e1_[t] = excess_[static_cast<std::size_t>(candidates.v1[t])];
@@ -69,50 +111,51 @@ std::span<const Patch> PatchEvaluator::evaluate(const MeshCandidates& candidates
   const std::size_t padded =
       (last + MeshCandidates::kLanes - 1) / MeshCandidates::kLanes * MeshCandidates::kLanes;
 
-  const bool shallow = node_excess > 0.0 && node_excess < kLargestFastExcess;
-  const double limit = shallow ? kLargestFastEdge2 * node_excess * R * R : 0.0;
+  const bool shallow = largest_excess_ > 0.0 && largest_excess_ < kLargestFastExcess;
+  const double limit = shallow ? kLargestFastEdge2 * largest_excess_ * R * R : 0.0;
   kernels::whole_triangles(padded, candidates, e0_.data(), e1_.data(), e2_.data(), inside_.data(), R, limit,
                            mean_g_.data(), mean_m_.data());
-  std::fill(mean_g_.begin() + static_cast<std::ptrdiff_t>(padded), mean_g_.end(), 0.0);
-  deepest_excess_ = node_excess;
+  deepest_excess_ = largest_excess_;
   classify(candidates, R, limit);
   integrate_rim();
   integrate_exactly(candidates, c, R);
-  if (overlapped_ == 0) return patches_;
+  if (!overlaps_) return;
   deepest_points(candidates, R);
   if (candidates.nearly_flat())
     single(candidates, padded, R, pair);
   else
     cluster(candidates, c, R, pair);
-  return patches_;
 }
 
-/// Sorts the triangles into: whole and small (done), cut by the rim, everything else that may overlap.
+/// Sorts the triangles into: whole and small (done), cut by the rim, everything else that may overlap. The
+/// first pass compacts without branches: which triangles the rim cuts is as good as random.
 void PatchEvaluator::classify(const MeshCandidates& candidates, double R, double limit) {
   rim_.resize(active_);
   general_.clear();
-  deep_.clear();
-  overlapped_ = 0;
-  const double inverse = 1.0 / (R * R);
-  const double* const bound = bound_.data();
-  const double* const corners_inside = inside_.data();
-  const double* const longest = candidates.longest.data();
+  cut_.resize(active_);
+  deep_.resize(active_);
+  std::size_t cut = 0, deep = 0;
+  bool touched = false;
   const double deepest = deepest_excess_;
   for (std::size_t t = 0; t < active_; ++t) {
-    const double inside = corners_inside[t];
-    if (bound[t] > deepest) deep_.push_back(static_cast<std::int32_t>(t));
-    if (inside == 3.0 && longest[t] <= limit) {
-      ++overlapped_;
-      continue;
-    }
-    if (bound[t] <= 0.0) continue;
-    overlapped_ += inside != 0.0;
-    if (longest[t] > limit)
-      general_.push_back(static_cast<std::int32_t>(t));
-    else if (inside == 0.0)
+    const double bound = bound_[t], inside = inside_[t];
+    const bool whole = (inside == 3.0) & (candidates.longest[t] <= limit);
+    cut_[cut] = static_cast<std::int32_t>(t);
+    cut += static_cast<std::size_t>((bound > 0.0) & !whole);
+    deep_[deep] = static_cast<std::int32_t>(t);
+    deep += static_cast<std::size_t>(bound > deepest);
+    touched |= inside != 0.0;
+  }
+  deep_.resize(deep);
+  overlaps_ = touched;
+  for (std::size_t k = 0; k < cut; ++k) {
+    const auto t = static_cast<std::size_t>(cut_[k]);
+    if (candidates.longest[t] > limit)
+      general_.push_back(cut_[k]);
+    else if (inside_[t] == 0.0)
       add_caps(candidates, t, R);
     else
-      add_rim(candidates, t, inside == 1.0, inverse, R);
+      add_rim(candidates, t, R);
   }
 }
 
@@ -129,7 +172,7 @@ void PatchEvaluator::add_caps(const MeshCandidates& candidates, std::size_t t, d
     mean_g_[t] += g;
     mean_m_[t] += m;
   }
-  overlapped_ += mean_g_[t] > 0.0;
+  overlaps_ = overlaps_ || mean_g_[t] > 0.0;
 }
 
 void PatchEvaluator::Rim::resize(std::size_t capacity) {
@@ -137,24 +180,25 @@ void PatchEvaluator::Rim::resize(std::size_t capacity) {
   const std::size_t size =
       (capacity + MeshCandidates::kLanes) / MeshCandidates::kLanes * MeshCandidates::kLanes;
   if (triangle.size() >= size) return;
-  for (auto* array : {&e0, &e1, &e2, &l01, &l12, &l20, &slope, &inside, &beyond, &g, &m})
-    array->resize(size, 1.0);
+  for (auto* array : {&e0, &e1, &e2, &l01, &l12, &l20, &height, &inside, &g, &m}) array->resize(size, 1.0);
   triangle.resize(size, 0);
 }
 
-void PatchEvaluator::add_rim(const MeshCandidates& candidates, std::size_t t, bool inside, double inverse,
-                             double R) {
-  const double e[3]{e0_[t], e1_[t], e2_[t]};
-  const double l[3]{candidates.l01[t] * inverse, candidates.l12[t] * inverse, candidates.l20[t] * inverse};
+void PatchEvaluator::add_rim(const MeshCandidates& candidates, std::size_t t, double R) {
+  const double inverse = 1.0 / (R * R);
+  // Twice around, so that turning needs no branch.
+  const double e[5]{e0_[t], e1_[t], e2_[t], e0_[t], e1_[t]};
+  const double l[5]{candidates.l01[t], candidates.l12[t], candidates.l20[t], candidates.l01[t],
+                    candidates.l12[t]};
   // The odd vertex is the one whose side no other shares.
-  const int odd = (e[0] > 0.0) == inside ? 0 : (e[1] > 0.0) == inside ? 1 : 2;
-  const int k1 = odd == 2 ? 0 : odd + 1, k2 = odd == 0 ? 2 : odd - 1;
+  const bool inside = inside_[t] == 1.0;
+  const auto odd =
+      static_cast<std::size_t>((e[1] > 0.0) == inside) + 2 * static_cast<std::size_t>((e[2] > 0.0) == inside);
   const std::size_t k = rim_.count++;
-  rim_.e0[k] = e[odd], rim_.e1[k] = e[k1], rim_.e2[k] = e[k2];
-  rim_.l01[k] = l[odd], rim_.l12[k] = l[k1], rim_.l20[k] = l[k2];
-  rim_.slope[k] = height_[t] / (candidates.area[t] * R);
+  rim_.e0[k] = e[odd], rim_.e1[k] = e[odd + 1], rim_.e2[k] = e[odd + 2];
+  rim_.l01[k] = l[odd] * inverse, rim_.l12[k] = l[odd + 1] * inverse, rim_.l20[k] = l[odd + 2] * inverse;
+  rim_.height[k] = height_[t] * (inverse / R);
   rim_.inside[k] = inside ? 1.0 : 0.0;
-  rim_.beyond[k] = inside ? std::max(0.0, edge_excess(e[k1], e[k2], l[k1])) : 0.0;
   rim_.triangle[k] = static_cast<std::int32_t>(t);
 }
 
@@ -163,7 +207,7 @@ void PatchEvaluator::integrate_rim() {
   const std::size_t padded = (rim_.count + lanes - 1) / lanes * lanes;
   kernels::rim_triangles(padded,
                          {rim_.e0.data(), rim_.e1.data(), rim_.e2.data(), rim_.l01.data(), rim_.l12.data(),
-                          rim_.l20.data(), rim_.slope.data(), rim_.inside.data(), rim_.beyond.data()},
+                          rim_.l20.data(), rim_.height.data(), rim_.inside.data()},
                          rim_.g.data(), rim_.m.data());
   for (std::size_t k = 0; k < rim_.count; ++k) {
     mean_g_[static_cast<std::size_t>(rim_.triangle[k])] = rim_.g[k];
@@ -181,7 +225,7 @@ void PatchEvaluator::integrate_exactly(const MeshCandidates& candidates, const V
     if (!(overlap.G > 0.0)) continue;
     mean_g_[t] = overlap.G / (R * candidates.area[t]);
     mean_m_[t] = height_[t] != 0.0 ? overlap.M / (R * height_[t]) : 0.0;
-    if (std::max({e0_[t], e1_[t], e2_[t]}) <= 0.0) ++overlapped_;
+    overlaps_ = true;
   }
 }
 
@@ -195,25 +239,22 @@ void PatchEvaluator::deepest_points(const MeshCandidates& candidates, double R) 
   }
 }
 
-Patch make_patch(const std::array<double, 4>& sums, double deepest, int triangles, double R,
-                 const PairProperties& pair) noexcept {
-  const Vec3 G = R * Vec3{sums[0], sums[1], sums[2]};
+Patch make_patch(const Vec3& G, double M, double deepest, double R, const PairProperties& pair) noexcept {
   const double size = norm(G);
   Patch patch;
-  patch.overlap = equivalent_overlap(R * sums[3], R);
+  patch.overlap = equivalent_overlap(M, R);
   if (!(patch.overlap > 0.0) || !(size > 0.0)) return {};
   patch.n = G / size;
   patch.elastic_force = patch_stiffness(pair, R, patch.overlap) * size;
   patch.deepest = deepest;
-  patch.triangles = triangles;
   return patch;
 }
 
 void PatchEvaluator::single(const MeshCandidates& candidates, std::size_t padded, double R,
                             const PairProperties& pair) {
-  const auto sums = kernels::sums(padded, candidates, height_.data(), mean_g_.data(), mean_m_.data());
-  const Patch patch = make_patch(sums, depth_of(deepest_excess_, R), overlapped_, R, pair);
-  if (patch.triangles > 0) patches_.push_back(patch);
+  const auto s = kernels::sums(padded, candidates, height_.data(), mean_g_.data(), mean_m_.data());
+  const Patch patch = make_patch(R * Vec3{s[0], s[1], s[2]}, R * s[3], depth_of(deepest_excess_, R), R, pair);
+  if (patch.elastic_force > 0.0) patches_.push_back(patch);
 }
 
 }  // namespace abradem::contact

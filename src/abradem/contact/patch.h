@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -16,13 +15,18 @@ struct Patch {
   double overlap = 0.0;        ///< overlap of a plane with the same weighted overlap volume M [m]
   double elastic_force = 0.0;  ///< K |sum G_T n_T| [N]
   double deepest = 0.0;        ///< largest local overlap R - |x - c| in the patch [m]
-  int triangles = 0;           ///< overlapped triangles
 };
 
 /// The contact rule `patch`: the force is an integral over the overlapped surface, so it does not know the
 /// triangulation. F = K sum_T G_T n_T, with K a function of M alone and such that a plane gives Hertz
 /// exactly; so the force is the gradient of a potential and does no work around a closed loop.
 /// docs/theory/contact.md#patch
+///
+/// Two ways to integrate. In general exactly, triangle by triangle. Where the surface is nearly flat and fine
+/// against the patch (edges below a third of the disc's radius) over the nodes: the plane through the patch
+/// is integrated in closed form, and the nodes only what the surface differs from it. A flat mesh is then
+/// exact whatever its nodes, and a worn one to the nodal rule's error times its (small) difference from the
+/// plane.
 ///
 /// One object per (sphere, wall); it keeps its arrays from step to step.
 class PatchEvaluator {
@@ -32,22 +36,19 @@ class PatchEvaluator {
   std::span<const Patch> evaluate(const MeshCandidates& candidates, const Vec3& c, double R,
                                   const PairProperties& pair);
 
-  /// 1 - |x - c|^2 / R^2 at the corners of each candidate triangle, from the last evaluation; > 0 inside.
-  [[nodiscard]] std::span<const double> corner_excess(int k) const noexcept {
-    return k == 0 ? e0_ : k == 1 ? e1_ : e2_;
-  }
-  /// Integral of g / R over the overlapped part of each candidate triangle, over the triangle's area [-].
-  [[nodiscard]] std::span<const double> mean_overlap() const noexcept { return mean_g_; }
+  /// 1 - |x - c|^2 / R^2 of each candidate node, from the last evaluation, padded; > 0 inside.
+  [[nodiscard]] std::span<const double> node_excess() const noexcept { return excess_; }
   /// Patch of each candidate triangle (index into the last result, -1: none); empty when there is one patch
   /// at most.
   [[nodiscard]] std::span<const int> clusters() const noexcept { return clusters_; }
-  /// No point of a candidate triangle has a larger excess than this.
-  [[nodiscard]] std::span<const double> bound() const noexcept { return bound_; }
 
  private:
+  bool evaluate_nodes(const MeshCandidates& candidates, const Vec3& c, double R, const PairProperties& pair);
+  void evaluate_triangles(const MeshCandidates& candidates, const Vec3& c, double R,
+                          const PairProperties& pair);
   void classify(const MeshCandidates& candidates, double R, double limit);
   void add_caps(const MeshCandidates& candidates, std::size_t t, double R);
-  void add_rim(const MeshCandidates& candidates, std::size_t t, bool inside, double inverse, double R);
+  void add_rim(const MeshCandidates& candidates, std::size_t t, double R);
   void integrate_rim();
   void integrate_exactly(const MeshCandidates& candidates, const Vec3& c, double R);
   void deepest_points(const MeshCandidates& candidates, double R);
@@ -61,20 +62,23 @@ class PatchEvaluator {
 
   /// Triangles that the rim of the ball cuts, turned so that vertex 0 is the odd one out; padded.
   struct Rim {
-    std::vector<double> e0, e1, e2, l01, l12, l20, slope, inside, beyond, g, m;
+    std::vector<double> e0, e1, e2, l01, l12, l20, height, inside, g, m;
     std::vector<std::int32_t> triangle;
     std::size_t count = 0;
     void resize(std::size_t capacity);
   } rim_;
+  std::vector<std::int32_t> cut_;      // triangles that are not whole, or not small
   std::vector<std::int32_t> general_;  // triangles for the general formula
   std::vector<std::int32_t> deep_;     // triangles whose inside may be deeper than any node
-  double deepest_excess_ = 0.0;
-  int overlapped_ = 0;
+  std::vector<double> scratch_;
+  double largest_excess_ = 0.0;  // of the nodes
+  double deepest_excess_ = 0.0;  // of the surface
+  bool overlaps_ = false;
 };
 
-/// The patch of summed integrals: {sum of mean_overlap * area vector, sum of the M-weight * (area vector . c
-/// - plane)}. Without force (triangles = 0) where they do not make a contact.
-[[nodiscard]] Patch make_patch(const std::array<double, 4>& sums, double deepest, int triangles, double R,
+/// The patch of an overlap with sum G_T n_T = G [m^3] and weighted overlap volume M [m^4]; without force
+/// where they do not make a contact.
+[[nodiscard]] Patch make_patch(const Vec3& G, double M, double deepest, double R,
                                const PairProperties& pair) noexcept;
 
 /// Stiffness factor K of F = K sum G_T n_T at an equivalent overlap delta [N/m^3]:

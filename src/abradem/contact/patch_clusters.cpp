@@ -80,8 +80,8 @@ void PatchEvaluator::cluster(const MeshCandidates& candidates, const Vec3& c, do
     std::int32_t root;
     Vec3 direction;
     double depth;
-    int triangles;
-    std::array<double, 4> sums;
+    Vec3 G;
+    double M;
   };
   std::vector<Seed> seeds;
   clusters_.assign(candidates.padded_triangle_count(), -1);
@@ -93,20 +93,15 @@ void PatchEvaluator::cluster(const MeshCandidates& candidates, const Vec3& c, do
     };
     auto seed = std::ranges::find_if(seeds, joins);
     if (seed == seeds.end()) {
-      seeds.push_back({root, spot.direction, spot.depth, 0, {}});
+      seeds.push_back({root, spot.direction, spot.depth, {}, 0.0});
       seed = seeds.end() - 1;
     }
     const std::size_t t = at(spot.triangle);
     clusters_[t] = static_cast<int>(seed - seeds.begin());
-    ++seed->triangles;
-    const Vec3 a{candidates.ax[t], candidates.ay[t], candidates.az[t]};
-    seed->sums[0] += mean_g_[t] * a.x;
-    seed->sums[1] += mean_g_[t] * a.y;
-    seed->sums[2] += mean_g_[t] * a.z;
-    seed->sums[3] += mean_m_[t] * height_[t];
+    seed->G += R * mean_g_[t] * Vec3{candidates.ax[t], candidates.ay[t], candidates.az[t]};
+    seed->M += R * mean_m_[t] * height_[t];
   }
-  for (const Seed& seed : seeds)
-    patches_.push_back(make_patch(seed.sums, seed.depth, seed.triangles, R, pair));
+  for (const Seed& seed : seeds) patches_.push_back(make_patch(seed.G, seed.M, seed.depth, R, pair));
   if (patches_.size() == 1) clusters_.clear();
 }
 

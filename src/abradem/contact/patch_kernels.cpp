@@ -73,6 +73,71 @@ ABRADEM_DISPATCH double node_excess(const MeshCandidates& candidates, const Vec3
   return largest;
 }
 
+namespace {
+
+/// g / R of a point inside the ball, from its excess.
+ABRADEM_INLINE double series_g(double e) {
+  return e * (kOverlap[1] + e * (kOverlap[2] + e * (kOverlap[3] + e * (kOverlap[4] + e * kOverlap[5]))));
+}
+/// Its weight of M.
+ABRADEM_INLINE double series_m(double e) {
+  return e * e *
+         (kWeighted[2] + e * (kWeighted[3] + e * (kWeighted[4] + e * (kWeighted[5] + e * kWeighted[6]))));
+}
+
+/// Terms of node_sums, a row of each in `terms`: G along x, y, z; M; G and M of the plane.
+ABRADEM_DISPATCH void node_terms(const MeshCandidates& candidates, const Vec3& c, double R, double distance,
+                                 std::size_t padded_count, const double* __restrict excess,
+                                 double* __restrict terms) noexcept {
+  const double* __restrict x = candidates.x.data();
+  const double* __restrict y = candidates.y.data();
+  const double* __restrict z = candidates.z.data();
+  const double* __restrict bx = candidates.bx.data();
+  const double* __restrict by = candidates.by.data();
+  const double* __restrict bz = candidates.bz.data();
+  double* __restrict gx = terms;
+  double* __restrict gy = gx + padded_count;
+  double* __restrict gz = gy + padded_count;
+  double* __restrict m = gz + padded_count;
+  double* __restrict g_plane = m + padded_count;
+  double* __restrict m_plane = g_plane + padded_count;
+  const double cx = c.x, cy = c.y, cz = c.z, inverse = 1.0 / (R * R), distance2 = distance * distance;
+  const double nx = candidates.mean_normal.x, ny = candidates.mean_normal.y, nz = candidates.mean_normal.z;
+#pragma omp simd
+  for (std::size_t i = 0; i < padded_count; ++i) {
+    const double dx = x[i] - cx, dy = y[i] - cy, dz = z[i] - cz;
+    const double height = dx * nx + dy * ny + dz * nz;
+    const double raw = excess[i], raw_plane = raw + (height * height - distance2) * inverse;
+    const double e = raw > 0.0 ? raw : 0.0, ep = raw_plane > 0.0 ? raw_plane : 0.0;
+    const double g = series_g(e), area = bx[i] * nx + by[i] * ny + bz[i] * nz;
+    gx[i] = g * bx[i];
+    gy[i] = g * by[i];
+    gz[i] = g * bz[i];
+    m[i] = -series_m(e) * (bx[i] * dx + by[i] * dy + bz[i] * dz);
+    g_plane[i] = series_g(ep) * area;
+    m_plane[i] = series_m(ep) * area * distance;
+  }
+}
+
+ABRADEM_DISPATCH double sum_lanes(const double* __restrict values, std::size_t padded_count) noexcept {
+  core::Lanes sum{};
+  const auto lanes = [](const double* p) { return reinterpret_cast<const core::Lanes*>(p); };
+  for (std::size_t i = 0; i < padded_count; i += kLanes) sum += *lanes(values + i);
+  return ABRADEM_SUM_LANES(sum);
+}
+
+}  // namespace
+
+NodeSums node_sums(const MeshCandidates& candidates, const Vec3& c, double R, std::span<const double> excess,
+                   std::vector<double>& scratch) {
+  const std::size_t n = excess.size();
+  if (scratch.size() < 6 * n) scratch.resize(6 * n);
+  const double distance = dot(candidates.mean_normal, c - candidates.mean_point);
+  node_terms(candidates, c, R, distance, n, excess.data(), scratch.data());
+  const auto sum = [&](std::size_t row) { return sum_lanes(scratch.data() + row * n, n); };
+  return {{sum(0), sum(1), sum(2)}, sum(3), sum(4), sum(5)};
+}
+
 ABRADEM_DISPATCH void survey(const MeshCandidates& candidates, const Vec3& c, double R,
                              const double* __restrict e0, const double* __restrict e1,
                              const double* __restrict e2, double* __restrict bound, double* __restrict inside,
@@ -119,9 +184,8 @@ ABRADEM_DISPATCH void rim_triangles(std::size_t padded_count, const RimTriangles
   const double* __restrict l01 = rim.l01;
   const double* __restrict l12 = rim.l12;
   const double* __restrict l20 = rim.l20;
-  const double* __restrict slope = rim.slope;
+  const double* __restrict height = rim.height;
   const double* __restrict inside = rim.inside;
-  const double* __restrict beyond = rim.beyond;
   for (std::size_t k = 0; k < padded_count; ++k) {
     // The rim crosses edges 01 and 02 where e0 + t (e1 - e0 + l) - t^2 l = 0: the far root when vertex 0 is
     // inside, the near one when it is outside.
@@ -139,12 +203,18 @@ ABRADEM_DISPATCH void rim_triangles(std::size_t padded_count, const RimTriangles
     const Means all = means_over(e0[k], e1[k], e2[k], l01[k], l12[k], l20[k]);
     const double share = t1 * t2;
     const double outside = 1.0 - inside[k];
-    // Between chord and arc, less what of it lies beyond the edge 12.
-    const double E = 1.0 - slope[k] * slope[k];
-    const Cap arc = cap_integrals(0.25 * chord, E), far = cap_integrals(beyond[k], E);
-    // Area in the same units, by Heron.
-    const double area2 = 4.0 * l01[k] * l20[k] - two_cos * two_cos;
-    const double inverse_area = 4.0 / std::sqrt(area2 > 1e-300 ? area2 : 1e-300);
+    // Area in the same units, by Heron; the disc that the plane cuts from the ball.
+    const double area16 = 4.0 * l01[k] * l20[k] - two_cos * two_cos;
+    const double inverse_area = 4.0 / std::sqrt(area16 > 1e-300 ? area16 : 1e-300);
+    const double d = height[k] * inverse_area;
+    const double E = 1.0 - d * d;
+    // Between chord and arc, less what of it lies beyond the edge 12 where the ball reaches over that edge
+    // too.
+    const double b12 = e2[k] - e1[k] + l12[k];
+    const double over = e1[k] + 0.25 * b12 * b12 / l12[k];
+    const bool reaches = (inside[k] > 0.0) & (b12 > 0.0) & (b12 < 2.0 * l12[k]) & (over > 0.0);
+    const double beyond = reaches ? over : 0.0;
+    const Cap arc = cap_integrals(0.25 * chord, E), far = cap_integrals(beyond, E);
     const double e = arc.e - far.e, e_2 = arc.e2 - far.e2;
     mean_g[k] =
         outside * all.g + sign * share * corner.g + inverse_area * (kOverlap[1] * e + kOverlap[2] * e_2);

@@ -14,6 +14,17 @@ namespace abradem::contact::kernels {
 double node_excess(const MeshCandidates& candidates, const Vec3& c, double R,
                    std::span<double> excess) noexcept;
 
+/// Sums over the nodes of an overlap that is fine against the mesh, and of the same nodes moved into the
+/// candidates' mean plane; see PatchEvaluator. In units of R where dimensionless.
+struct NodeSums {
+  Vec3 G;          ///< sum of g / R times nodal area vectors [m^2]
+  double M = 0.0;  ///< sum of the weight of M times height of the centre above the node's surface [m^3]
+  double G_plane = 0.0, M_plane = 0.0;
+};
+/// @param scratch grows as needed
+NodeSums node_sums(const MeshCandidates& candidates, const Vec3& c, double R, std::span<const double> excess,
+                   std::vector<double>& scratch);
+
 /// Per triangle: a bound that the excess nowhere exceeds (squared distances are convex: highest corner plus a
 /// third of the longest edge squared), how many corners lie inside (0 … 3), and the height of the ball's
 /// centre above the triangle's plane times its area.
@@ -27,10 +38,9 @@ void whole_triangles(std::size_t padded_count, const MeshCandidates& candidates,
                      double* mean_g, double* mean_m) noexcept;
 
 /// Triangles that the rim of the ball cuts, in units of R: vertex 0 alone inside (inside = 1) or alone
-/// outside (inside = 0); `beyond` is the largest excess on the edge 12 where both its ends are outside, else
-/// 0; `slope` = height / (area R), the centre's distance from the plane.
+/// outside (inside = 0); height of the centre above the plane times the area.
 struct RimTriangles {
-  const double *e0, *e1, *e2, *l01, *l12, *l20, *slope, *inside, *beyond;
+  const double *e0, *e1, *e2, *l01, *l12, *l20, *height, *inside;
 };
 /// The same means, taken over the overlapped part and related to the whole triangle.
 void rim_triangles(std::size_t padded_count, const RimTriangles& rim, double* mean_g,

@@ -55,17 +55,14 @@ bool stronger(const PointContact& a, const PointContact& b) noexcept {
 
 void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R) {
   touched_.clear();
-  excess_.resize(candidates.node_count());
+  excess_.assign(candidates.x.size(), -1.0);
   const double inverse = 1.0 / (R * R);
   for (std::size_t i = 0; i < candidates.node_count(); ++i)
     excess_[i] = 1.0 - norm2(candidates.node_position(i) - c) * inverse;
-  for (auto* array : {&e0_, &e1_, &e2_, &bound_}) array->resize(candidates.triangle_count());
   for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
-    e0_[t] = excess_[at(candidates.v0[t])];
-    e1_[t] = excess_[at(candidates.v1[t])];
-    e2_[t] = excess_[at(candidates.v2[t])];
-    bound_[t] = std::max({e0_[t], e1_[t], e2_[t]}) + candidates.longest[t] * inverse / 3.0;
-    if (bound_[t] <= 0.0) continue;  // nowhere inside the ball
+    const double highest = std::max(
+        {excess_[at(candidates.v0[t])], excess_[at(candidates.v1[t])], excess_[at(candidates.v2[t])]});
+    if (highest + candidates.longest[t] * inverse / 3.0 <= 0.0) continue;  // nowhere inside the ball
     const auto closest = geometry::closest_point_on_triangle(
         c, candidates.node_position(at(candidates.v0[t])), candidates.node_position(at(candidates.v1[t])),
         candidates.node_position(at(candidates.v2[t])));

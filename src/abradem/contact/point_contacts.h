@@ -32,11 +32,8 @@ class PointContactFinder {
   /// contact. Angles are those of the mesh as it is now.
   std::span<const PointContact> resolved(const MeshCandidates& candidates, const Vec3& c, double R);
 
-  /// As PatchEvaluator: excess at the corners of each candidate triangle and its bound, from the last call.
-  [[nodiscard]] std::span<const double> corner_excess(int k) const noexcept {
-    return k == 0 ? e0_ : k == 1 ? e1_ : e2_;
-  }
-  [[nodiscard]] std::span<const double> bound() const noexcept { return bound_; }
+  /// 1 - |x - c|^2 / R^2 of each candidate node, from the last call, padded; > 0 inside.
+  [[nodiscard]] std::span<const double> node_excess() const noexcept { return excess_; }
 
   /// `resolved`: set of each candidate triangle, or -1 where it is not overlapped.
   [[nodiscard]] std::span<const int> sets() const noexcept { return set_; }
@@ -48,7 +45,7 @@ class PointContactFinder {
   std::vector<PointContact> touched_;  // nearest point of every overlapped triangle
   std::vector<PointContact> accepted_;
   std::vector<int> set_;
-  std::vector<double> excess_, e0_, e1_, e2_, bound_;
+  std::vector<double> excess_;
 };
 
 }  // namespace abradem::contact

@@ -48,6 +48,9 @@ class TriangleGrid {
     for (const Index t : large) visit(t);
   }
 
+  /// Of the mesh as built [m].
+  [[nodiscard]] BoundingBox box() const noexcept { return {origin_, top_}; }
+
  private:
   struct CellRange {
     std::array<std::int32_t, 3> low, high;

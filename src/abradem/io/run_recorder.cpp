@@ -61,8 +61,8 @@ void RunRecorder::observe(const Simulation& run) {
   const simulation::ForceSample f = run.force_on(watched_particle_);
   normal_force_.add(f.normal);
   if (run.steps() % force_stride_ == 0)
-    force_.row(
-        {f.time, run.revolution(), f.normal, f.tangential, 1e6 * f.overlap, static_cast<double>(f.contacts)});
+    force_.row({f.time, run.revolution(), f.normal, f.tangential, 1e6 * f.overlap,
+                static_cast<double>(run.elements_in_contact(watched_particle_))});
 }
 
 std::vector<analysis::Contour> RunRecorder::cut_contours() const {

@@ -246,9 +246,12 @@ void Simulation::compute_sphere_pairs() {
   }
 }
 
-double Simulation::slip_of(const SphereWall::Touch& touch, DeformationRule rule) const noexcept {
-  // The paper wears by |v_t| dt whether the contact sticks or slips; ours by the plastic slip.
-  const bool by_speed = rule == DeformationRule::paper || setup_.run.method == Method::quasi_static;
+double Simulation::slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept {
+  // Ours wears by the plastic slip. The paper's rules wear by |v_t| dt whether the contact sticks or slips
+  // (eq. 5): their springs begin anew on every element, so what they call slip would come short.
+  const bool by_speed = wall.deformation == DeformationRule::paper ||
+                        wall.contact == ContactRule::per_triangle ||
+                        setup_.run.method == Method::quasi_static;
   return by_speed ? touch.force.v_t * dt_ : touch.force.slip;
 }
 
@@ -260,7 +263,7 @@ void Simulation::accumulate_wear() {
       if (alpha_s == 0.0) continue;
       law_[w] += sphere_walls_[p * walls_.size() + w].deposit(
           wall, alpha_s, particles_.radius[p], pair(particles_.material[p], wall.material()),
-          [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup().deformation); });
+          [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); });
     }
 }
 
@@ -307,7 +310,15 @@ void Simulation::record() {
   check_state();
   watch_stability();
   ++steps_;
+  if (steps_ % steps_per_output_ == 0 || finished()) book_elements();
   if (observer_) observer_(*this);
+}
+
+/// Brings the surfaces' record of worn elements up to date; in the order of particles, so that the sums do
+/// not depend on threads.
+void Simulation::book_elements() {
+  for (std::size_t k = 0; k < sphere_walls_.size(); ++k)
+    if (Wall& wall = walls_[k % walls_.size()]; !wall.is_plane()) sphere_walls_[k].book_elements(wall);
 }
 
 void Simulation::check_state() const {
@@ -321,6 +332,10 @@ void Simulation::check_state() const {
     };
     if (!is_finite(particles_.position[p]) || !is_finite(particles_.velocity[p]))
       fail("its position or speed is no longer a number");
+    // A guided sphere that has sunk by its own radius has no wall under it any more.
+    const Vec3& guide = particles_.guide[p];
+    if (dot(particles_.position[p] - setup_.particles[p].position, guide) > particles_.radius[p])
+      fail("it has moved by more than its radius along its guide: it has left the walls");
     for (std::size_t w = 0; w < walls_.size(); ++w)
       for (const SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches())
         if (t.overlap > kDeepest * particles_.radius[p])
@@ -340,7 +355,6 @@ ForceSample Simulation::force_on(std::size_t p) const noexcept {
       tangential += poses_[w].turn(t.force.F_t);
       sample.overlap = std::max(sample.overlap, t.overlap);
     }
-    sample.contacts += sw.elements();
   }
   sample.normal = norm(normal);
   sample.tangential = norm(tangential);
@@ -365,6 +379,8 @@ Ledger Simulation::ledger() {
     const double swept = wall.surface().swept_volume();
     ledger.law += law_[w];
     ledger.deposited += wall.surface().deposited_volume();
+    for (std::size_t p = 0; p < particles_.size(); ++p)
+      ledger.deposited += sphere_walls_[p * walls_.size() + w].pending_volume();
     ledger.swept += swept;
     ledger.paper += paper_[w];
     if (wall.setup().deformation == DeformationRule::conserving)
@@ -377,6 +393,13 @@ Ledger Simulation::ledger() {
     ledger.kappa = ledger.swept / ledger.law;
   }
   return ledger;
+}
+
+int Simulation::elements_in_contact(std::size_t p) const {
+  int count = 0;
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    count += sphere_walls_[p * walls_.size() + w].elements(walls_[w]);
+  return count;
 }
 
 std::uint64_t Simulation::state_hash() const {

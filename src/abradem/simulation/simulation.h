@@ -95,6 +95,8 @@ class Simulation {
   [[nodiscard]] double law_volume() const noexcept;
   /// Forces of the last step on particle p.
   [[nodiscard]] ForceSample force_on(std::size_t p) const noexcept;
+  /// Elements of all walls that particle p touches.
+  [[nodiscard]] int elements_in_contact(std::size_t p) const;
   /// Called after every step; for statistics and series.
   void on_step(std::function<void(const Simulation&)> observer) { observer_ = std::move(observer); }
 
@@ -131,7 +133,8 @@ class Simulation {
 
   void compute_sphere_pairs();
   void find_equilibrium(std::size_t p);
-  [[nodiscard]] double slip_of(const SphereWall::Touch& touch, DeformationRule rule) const noexcept;
+  [[nodiscard]] double slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept;
+  void book_elements();
   void check_state() const;
   void watch_stability();
 

@@ -31,22 +31,21 @@ void SphereWall::find(Wall& wall, const Vec3& c, const Vec3& v, double R, const 
   const double reach = R + 0.5 * contact::hertz_overlap(pair, R, load);
   // Skin: some tens of steps of motion, but no more than the patch can hide in.
   const double v_n = std::abs(dot(v, axis_)), v_t = std::sqrt(std::max(0.0, norm2(v) - v_n * v_n));
-  const contact::CandidateSkin skin{std::clamp(60.0 * v_t * dt, 0.005 * R, 0.1 * R),
+  const contact::CandidateSkin skin{std::clamp(80.0 * v_t * dt, 0.005 * R, 0.1 * R),
                                     std::clamp(20.0 * v_n * dt, 0.001 * R, 0.1 * R)};
   const contact::SurfaceView view = wall.view();
   const bool stale = candidates_.stale(view, c, reach);
   if (stale || wall.setup().contact != ContactRule::patch) add_centroid_motion(wall);
+  if (stale) book_elements(wall);
   candidates_.update(view, c, axis_, reach, skin);
   if (stale) note_centroids();
   touches_.clear();
-  elements_ = 0;
 
   if (wall.setup().contact == ContactRule::patch) {
     const auto patches = patches_.evaluate(candidates_, c, R, pair);
     for (std::size_t i = 0; i < patches.size(); ++i) {
       const contact::Patch& p = patches[i];
-      if (p.triangles == 0) continue;
-      elements_ += p.triangles;
+      if (!(p.elastic_force > 0.0)) continue;
       touches_.push_back({.n = p.n,
                           .point = c - R * p.n,
                           .overlap = p.overlap,
@@ -61,7 +60,6 @@ void SphereWall::find(Wall& wall, const Vec3& c, const Vec3& v, double R, const 
     const bool resolved = wall.setup().contact == ContactRule::resolved;
     const auto points =
         resolved ? points_.resolved(candidates_, c, R) : points_.per_triangle(candidates_, c, R);
-    elements_ = static_cast<int>(points.size());
     for (const contact::PointContact& p : points)
       touches_.push_back({.n = p.n,
                           .point = p.point,
@@ -80,7 +78,6 @@ void SphereWall::touch_plane(const Wall& wall, const Vec3& c, double R, const co
   const MeshSetup& plane = wall.setup().mesh;
   const double overlap = R - dot(c - plane.position, plane.normal);
   if (overlap <= 0.0) return;
-  elements_ = 1;
   touches_.push_back({.n = plane.normal,
                       .point = c - R * plane.normal,
                       .overlap = overlap,
@@ -161,29 +158,51 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
     for (std::size_t t = 0; t < mask_.size(); ++t) mask_[t] = parts[t] == touch.part;
     mask = mask_;
   }
-  const wear::OverlapField field = resolved ? wear::OverlapField{points_.corner_excess(0),
-                                                                 points_.corner_excess(1),
-                                                                 points_.corner_excess(2),
-                                                                 points_.bound(),
-                                                                 R,
-                                                                 touch.deepest}
-                                            : wear::OverlapField{patches_.corner_excess(0),
-                                                                 patches_.corner_excess(1),
-                                                                 patches_.corner_excess(2),
-                                                                 patches_.bound(),
-                                                                 R,
-                                                                 touch.deepest};
-  const auto& shares =
+  const wear::OverlapField field{resolved ? points_.node_excess() : patches_.node_excess(), R, touch.deepest};
+  const wear::FootprintShares& shares =
       wall.setup().footprint == Footprint::hertz
-          ? footprint_.hertz(candidates_, field, contact::hertz_overlap(pair, R, touch.force.F_n), mask)
-          : footprint_.overlap(candidates_, field, mask);
-  for (std::size_t k = 0; k < shares.triangle.size(); ++k) {
-    const geometry::Index t = candidates_.triangle[at(shares.triangle[k])];
-    if (paper)
-      surface.deposit_element(t, dV * shares.share[k]);
-    else
-      surface.deposit(t, dV * shares.share[k], dV * shares.at0[k], dV * shares.at1[k], dV * shares.at2[k]);
+          ? footprint_.hertz(candidates_, field, contact::hertz_overlap(pair, R, touch.force.F_n), paper,
+                             mask)
+          : footprint_.overlap(candidates_, field, paper, mask);
+  if (!(shares.total > 0.0)) return;
+  const double scale = dV / shares.total;
+  if (paper) {
+    for (std::size_t t = 0; t < shares.count; ++t)
+      if (const double w = (shares.at0[t] + shares.at1[t]) + shares.at2[t]; w > 0.0)
+        surface.deposit_element(candidates_.triangle[t], scale * w);
+  } else if (shares.nodal) {
+    node_pending_.resize(candidates_.x.size());
+    for (std::size_t i = 0; i < candidates_.node_count(); ++i) {
+      if (!(shares.at_node[i] > 0.0)) continue;
+      const double volume = scale * shares.at_node[i];
+      node_pending_[i] += volume;
+      surface.deposit_at_vertex(candidates_.node[i], volume);
+    }
+  } else {
+    for (std::size_t t = 0; t < shares.count; ++t)
+      if (const double w = (shares.at0[t] + shares.at1[t]) + shares.at2[t]; w > 0.0)
+        surface.deposit(candidates_.triangle[t], scale * w, scale * shares.at0[t], scale * shares.at1[t],
+                        scale * shares.at2[t]);
   }
+}
+
+/// What fell to a node was lost by the triangles around it, each by its part of the node's area.
+void SphereWall::book_elements(Wall& wall) {
+  if (node_pending_.empty()) return;
+  for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
+    double volume = 0.0;
+    for (const std::int32_t v : {candidates_.v0[t], candidates_.v1[t], candidates_.v2[t]})
+      volume += node_pending_[at(v)] / candidates_.node_area[at(v)];
+    if (volume > 0.0)
+      wall.surface().book_element(candidates_.triangle[t], volume * candidates_.area[t] / 3.0);
+  }
+  node_pending_.clear();
+}
+
+double SphereWall::pending_volume() const noexcept {
+  double sum = 0.0;
+  for (const double v : node_pending_) sum += v;
+  return sum;
 }
 
 /// Adds what the centroids of the elements in contact have moved since they were last noted. Under `patch`
@@ -191,7 +210,7 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
 void SphereWall::add_centroid_motion(const Wall& wall) {
   if (wall.setup().deformation != DeformationRule::conserving) return;
   const auto touched = [&](std::size_t t) {
-    if (wall.setup().contact == ContactRule::patch) return patches_.mean_overlap()[t] > 0.0;
+    if (wall.setup().contact == ContactRule::patch) return inside(t);
     return std::ranges::any_of(touches_,
                                [&](const Touch& touch) { return touch.part == static_cast<int>(t); });
   };
@@ -203,6 +222,21 @@ void SphereWall::add_centroid_motion(const Wall& wall) {
     if (now != centroid_[t] && touched(t)) centroid_volume_ += norm(now - centroid_[t]) * candidates_.area[t];
     centroid_[t] = now;
   }
+}
+
+/// Does the ball hold a corner of the candidate triangle?
+bool SphereWall::inside(std::size_t t) const noexcept {
+  const auto excess = patches_.node_excess();
+  return excess[at(candidates_.v0[t])] > 0.0 || excess[at(candidates_.v1[t])] > 0.0 ||
+         excess[at(candidates_.v2[t])] > 0.0;
+}
+
+int SphereWall::elements(const Wall& wall) const {
+  if (wall.is_plane() || wall.setup().contact != ContactRule::patch || touches_.empty())
+    return static_cast<int>(touches_.size());
+  int count = 0;
+  for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) count += inside(t);
+  return std::max(count, static_cast<int>(touches_.size()));
 }
 
 void SphereWall::note_centroids() {

@@ -66,8 +66,13 @@ class SphereWall {
   [[nodiscard]] const std::vector<Touch>& touches() const noexcept { return touches_; }
   [[nodiscard]] std::vector<Touch>& touches() noexcept { return touches_; }
   [[nodiscard]] const contact::MeshCandidates& candidates() const noexcept { return candidates_; }
-  /// Elements in contact, counted by the rule.
-  [[nodiscard]] int elements() const noexcept { return elements_; }
+  /// Elements in contact: under `patch` those with a corner in the ball, else the contacts.
+  [[nodiscard]] int elements(const Wall& wall) const;
+
+  /// Hands the wear of elements that is still kept in the candidates' numbering to the surface.
+  void book_elements(Wall& wall);
+  /// Wear of elements not yet handed over [m^3].
+  [[nodiscard]] double pending_volume() const noexcept;
 
   /// Adds what the next step depends on: the contacts' springs.
   void add_to(core::StateHash& hash) const;
@@ -88,6 +93,7 @@ class SphereWall {
   contact::TangentialHistory& recall(const Touch& touch, ContactRule rule);
   void add_centroid_motion(const Wall& wall);
   void note_centroids();
+  [[nodiscard]] bool inside(std::size_t t) const noexcept;
 
   contact::MeshCandidates candidates_;
   contact::PatchEvaluator patches_;
@@ -96,8 +102,8 @@ class SphereWall {
   std::vector<Touch> touches_;
   std::vector<Memory> memory_, kept_;
   std::vector<char> mask_;
-  Vec3 axis_;  // towards the surface, from the last contact
-  int elements_ = 0;
+  std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
+  Vec3 axis_;                         // towards the surface, from the last contact
   double centroid_volume_ = 0.0;
   std::vector<Vec3> centroid_;  // of each candidate when last noted
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "abradem/contact/overlap_series.h"
 #include "abradem/core/simd.h"
 
 namespace abradem::wear {
@@ -16,160 +17,154 @@ using contact::MeshCandidates;
 ABRADEM_INLINE double depth(double e) { return e / (1.0 + std::sqrt(1.0 - e)); }
 
 struct HertzWeight {
-  double base, R2;  // (d_e - 2 g_max), 2 R
-  ABRADEM_INLINE double operator()(double e) const {
-    const double w2 = base + R2 * depth(e);
+  double base, twice_R;  // d_e - 2 g_max, 2 R
+  ABRADEM_INLINE double operator()(double e) const { return of_depth(depth(e)); }
+  ABRADEM_INLINE double of_depth(double g) const {
+    const double w2 = base + twice_R * g;
     return std::sqrt(w2 > 0.0 ? w2 : 0.0);
   }
 };
 
 struct OverlapWeight {
-  ABRADEM_INLINE double operator()(double e) const {
-    const double g = depth(e);
-    return g > 0.0 ? g : 0.0;
-  }
+  ABRADEM_INLINE double operator()(double e) const { return of_depth(depth(e)); }
+  ABRADEM_INLINE double of_depth(double g) const { return g > 0.0 ? g : 0.0; }
 };
 
-/// Mid-edge rule, for triangles small against the footprint: the weight at the three mid-edges, each shared
-/// by the two vertices of its edge.
-template <typename Weight>
-ABRADEM_INLINE void mid_edges(std::size_t n, const double* __restrict e0, const double* __restrict e1,
-                              const double* __restrict e2, const double* __restrict l01,
-                              const double* __restrict l12, const double* __restrict l20,
-                              const double* __restrict area, double* __restrict w0, double* __restrict w1,
-                              double* __restrict w2, const Weight weight) {
-  for (std::size_t k = 0; k < n; ++k) {
-    const double a = weight(0.5 * (e0[k] + e1[k]) + 0.25 * l01[k]);
-    const double b = weight(0.5 * (e1[k] + e2[k]) + 0.25 * l12[k]);
-    const double c = weight(0.5 * (e2[k] + e0[k]) + 0.25 * l20[k]);
-    const double sixth = area[k] * (1.0 / 6.0);
-    w0[k] = sixth * (c + a);
-    w1[k] = sixth * (a + b);
-    w2[k] = sixth * (b + c);
-  }
+/// depth() of a shallow excess (nodes count only there) without root or quotient; negative wherever e is.
+ABRADEM_INLINE double shallow_depth(double e) {
+  using contact::series::kOverlap;
+  return e * (kOverlap[1] + e * (kOverlap[2] + e * (kOverlap[3] + e * (kOverlap[4] + e * kOverlap[5]))));
 }
 
-#define ABRADEM_MID_EDGES(name, Weight)                                                                   \
-  ABRADEM_DISPATCH void name(std::size_t n, const double* __restrict e0, const double* __restrict e1,     \
-                             const double* __restrict e2, const double* __restrict l01,                   \
-                             const double* __restrict l12, const double* __restrict l20,                  \
-                             const double* __restrict area, double* __restrict w0, double* __restrict w1, \
-                             double* __restrict w2, const Weight weight) {                                \
-    mid_edges(n, e0, e1, e2, l01, l12, l20, area, w0, w1, w2, weight);                                    \
-  }
-ABRADEM_MID_EDGES(mid_edges_of, HertzWeight)
-ABRADEM_MID_EDGES(mid_edges_of, OverlapWeight)
-#undef ABRADEM_MID_EDGES
+/// Weight times area of each node, and their sum.
+template <typename Weight>
+ABRADEM_INLINE double nodes(std::size_t padded_count, const double* __restrict excess,
+                            const double* __restrict area, double* __restrict load, const Weight weight) {
+  for (std::size_t i = 0; i < padded_count; ++i)
+    load[i] = area[i] * weight.of_depth(shallow_depth(excess[i]));
+  core::Lanes sum{};
+  const auto lanes = [](const double* p) { return reinterpret_cast<const core::Lanes*>(p); };
+  for (std::size_t i = 0; i < padded_count; i += MeshCandidates::kLanes) sum += *lanes(load + i);
+  return ABRADEM_SUM_LANES(sum);
+}
+
+ABRADEM_DISPATCH double load_nodes(std::size_t padded_count, const double* __restrict excess,
+                                   const double* __restrict area, double* __restrict load,
+                                   const HertzWeight weight) {
+  return nodes(padded_count, excess, area, load, weight);
+}
+ABRADEM_DISPATCH double load_nodes(std::size_t padded_count, const double* __restrict excess,
+                                   const double* __restrict area, double* __restrict load,
+                                   const OverlapWeight weight) {
+  return nodes(padded_count, excess, area, load, weight);
+}
 
 }  // namespace
 
 const FootprintShares& FootprintIntegrator::hertz(const MeshCandidates& candidates, const OverlapField& field,
-                                                  double d_e, std::span<const char> mask) {
+                                                  double d_e, bool by_elements, std::span<const char> mask) {
   const double g_cut = (field.deepest - 0.5 * d_e) / field.R;
-  select(candidates, field, g_cut * (2.0 - g_cut), mask);
-  integrate(std::sqrt(field.R * d_e), HertzWeight{d_e - 2.0 * field.deepest, 2.0 * field.R});
-  return shares_;
+  return integrate(candidates, field, g_cut * (2.0 - g_cut), std::sqrt(field.R * d_e), by_elements, mask,
+                   HertzWeight{d_e - 2.0 * field.deepest, 2.0 * field.R});
 }
 
 const FootprintShares& FootprintIntegrator::overlap(const MeshCandidates& candidates,
-                                                    const OverlapField& field, std::span<const char> mask) {
-  select(candidates, field, 0.0, mask);
-  integrate(std::sqrt(2.0 * field.R * std::max(field.deepest, 0.0)), OverlapWeight{});
+                                                    const OverlapField& field, bool by_elements,
+                                                    std::span<const char> mask) {
+  return integrate(candidates, field, 0.0, std::sqrt(2.0 * field.R * std::max(field.deepest, 0.0)),
+                   by_elements, mask, OverlapWeight{});
+}
+
+template <typename Weight>
+const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& candidates,
+                                                      const OverlapField& field, double cut, double reach,
+                                                      bool by_elements, std::span<const char> mask,
+                                                      const Weight& weight) {
+  // Nodes alone are enough where at least five of them span the footprint.
+  constexpr double kEdgesPerReach = 2.5;
+  constexpr double kShallow = 0.03;  // of R: there the series of shallow_depth errs by less than 1e-8
+  const double edges = reach / std::sqrt(candidates.longest_edge2);
+  shares_.nodal =
+      edges >= kEdgesPerReach && field.deepest < kShallow * field.R && !by_elements && mask.empty();
+  if (shares_.nodal) {
+    at_node_.resize(candidates.x.size());
+    shares_.total = load_nodes(at_node_.size(), field.excess.data(), candidates.node_area.data(),
+                               at_node_.data(), weight);
+    shares_.at_node = at_node_;
+    if (shares_.total > 0.0) return shares_;
+    shares_.nodal = false;
+  }
+
+  // Candidates are ordered outwards, so what is loaded stands in front.
+  std::size_t n = candidates.triangle_count();
+  while (n > 0 && bound(candidates, field, n - 1) <= cut) --n;
+  for (auto* array : {&at0_, &at1_, &at2_}) array->assign(candidates.padded_triangle_count(), 0.0);
+  // Points no further apart than a fifth of the footprint's radius; the sliding averages what is left.
+  constexpr int kFinest = 48;
+  const int parts = std::clamp(static_cast<int>(std::ceil(2.0 * kEdgesPerReach / edges)), 2, kFinest);
+  const auto masked_out = [&](std::size_t t) { return !mask.empty() && mask[t] == 0; };
+  shares_.total = 0.0;
+  for (std::size_t t = 0; t < n; ++t) {
+    if (bound(candidates, field, t) <= cut || masked_out(t)) continue;
+    subdivide(candidates, field, t, parts, weight);
+    shares_.total += (at0_[t] + at1_[t]) + at2_[t];
+  }
+  if (!(shares_.total > 0.0) && n > 0) {
+    // A spot finer than the finest sampling: all of it to the triangle that reaches deepest.
+    std::size_t best = 0;
+    for (std::size_t t = 1; t < n; ++t)
+      if (!masked_out(t) &&
+          (masked_out(best) || bound(candidates, field, t) > bound(candidates, field, best)))
+        best = t;
+    at0_[best] = at1_[best] = at2_[best] = 1.0;
+    shares_.total = 3.0;
+  }
+  shares_.count = n;
+  shares_.at0 = at0_;
+  shares_.at1 = at1_;
+  shares_.at2 = at2_;
   return shares_;
 }
 
-/// Takes the triangles that may carry weight: those whose excess may pass the cut.
-void FootprintIntegrator::select(const MeshCandidates& candidates, const OverlapField& field, double cut,
-                                 std::span<const char> mask) {
-  shares_.triangle.clear();
-  const std::size_t capacity = candidates.padded_triangle_count();
-  for (auto* array : {&e0_, &e1_, &e2_, &l01_, &l12_, &l20_, &area_, &w0_, &w1_, &w2_, &shares_.share,
-                      &shares_.at0, &shares_.at1, &shares_.at2})
-    array->resize(capacity);
+/// No point of triangle t has a larger excess: squared distances are convex.
+double FootprintIntegrator::bound(const MeshCandidates& candidates, const OverlapField& field,
+                                  std::size_t t) noexcept {
+  return std::max({field.excess[static_cast<std::size_t>(candidates.v0[t])],
+                   field.excess[static_cast<std::size_t>(candidates.v1[t])],
+                   field.excess[static_cast<std::size_t>(candidates.v2[t])]}) +
+         candidates.longest[t] / (3.0 * field.R * field.R);
+}
+
+/// Centroid rule on parts^2 equal parts of triangle t.
+template <typename Weight>
+void FootprintIntegrator::subdivide(const MeshCandidates& candidates, const OverlapField& field,
+                                    std::size_t t, int parts, const Weight& weight) {
   const double inverse = 1.0 / (field.R * field.R);
-  longest_ = 0.0;
-  std::size_t k = 0;
-  for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
-    if (field.bound[t] <= cut || (!mask.empty() && mask[t] == 0)) continue;
-    shares_.triangle.push_back(static_cast<std::int32_t>(t));
-    e0_[k] = field.e0[t], e1_[k] = field.e1[t], e2_[k] = field.e2[t];
-    l01_[k] = candidates.l01[t] * inverse, l12_[k] = candidates.l12[t] * inverse;
-    l20_[k] = candidates.l20[t] * inverse;
-    area_[k] = candidates.area[t];
-    longest_ = std::max(longest_, candidates.longest[t]);
-    ++k;
-  }
-}
-
-template <typename Weight>
-void FootprintIntegrator::integrate(double reach, const Weight& weight) {
-  // Points no further apart than a fifth of the footprint's radius; the sliding averages what is left.
-  constexpr double kPointsPerReach = 5.0;
-  constexpr int kFinest = 48;
-  const double ratio = kPointsPerReach * std::sqrt(longest_) / (2.0 * reach);
-  const std::size_t n = shares_.triangle.size();
-  if (ratio <= 1.0) {
-    const std::size_t padded = std::min(
-        e0_.size(), (n + MeshCandidates::kLanes - 1) / MeshCandidates::kLanes * MeshCandidates::kLanes);
-    mid_edges_of(padded, e0_.data(), e1_.data(), e2_.data(), l01_.data(), l12_.data(), l20_.data(),
-                 area_.data(), w0_.data(), w1_.data(), w2_.data(), weight);
-  } else {
-    const int parts = std::min(kFinest, static_cast<int>(std::ceil(2.0 * ratio)));
-    for (std::size_t k = 0; k < n; ++k) subdivide(k, parts, weight);
-  }
-  normalise();
-}
-
-/// Centroid rule on n^2 equal parts of triangle k.
-template <typename Weight>
-void FootprintIntegrator::subdivide(std::size_t k, int n, const Weight& weight) {
+  const double l01 = candidates.l01[t] * inverse, l12 = candidates.l12[t] * inverse,
+               l20 = candidates.l20[t] * inverse;
+  const double e0 = field.excess[static_cast<std::size_t>(candidates.v0[t])];
+  const double e1 = field.excess[static_cast<std::size_t>(candidates.v1[t])];
+  const double e2 = field.excess[static_cast<std::size_t>(candidates.v2[t])];
   double sum0 = 0.0, sum1 = 0.0, sum2 = 0.0;
-  const double third = 1.0 / 3.0, step = 1.0 / n;
+  const double third = 1.0 / 3.0, step = 1.0 / parts;
   const auto add = [&](double b1, double b2) {
     const double b0 = 1.0 - b1 - b2;
-    const double e =
-        b0 * e0_[k] + b1 * e1_[k] + b2 * e2_[k] + b0 * b1 * l01_[k] + b1 * b2 * l12_[k] + b2 * b0 * l20_[k];
+    // Along a line the excess is a parabola of curvature -2.
+    const double e = b0 * e0 + b1 * e1 + b2 * e2 + b0 * b1 * l01 + b1 * b2 * l12 + b2 * b0 * l20;
     const double w = weight(e);
     sum0 += w * b0;
     sum1 += w * b1;
     sum2 += w * b2;
   };
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; i + j < n; ++j) {
+  for (int i = 0; i < parts; ++i)
+    for (int j = 0; i + j < parts; ++j) {
       add((i + third) * step, (j + third) * step);
-      if (i + j + 1 < n) add((i + 2 * third) * step, (j + 2 * third) * step);
+      if (i + j + 1 < parts) add((i + 2 * third) * step, (j + 2 * third) * step);
     }
-  const double part = area_[k] * step * step;
-  w0_[k] = part * sum0;
-  w1_[k] = part * sum1;
-  w2_[k] = part * sum2;
-}
-
-void FootprintIntegrator::normalise() {
-  const std::size_t n = shares_.triangle.size();
-  double total = 0.0;
-  for (std::size_t k = 0; k < n; ++k) total += (w0_[k] + w1_[k]) + w2_[k];
-  if (!(total > 0.0)) {  // a spot finer than the finest sampling: all of it to the triangle it lies in
-    const auto highest = [&](std::size_t k) { return std::max({e0_[k], e1_[k], e2_[k]}) + l01_[k] / 3.0; };
-    std::size_t best = 0;
-    for (std::size_t k = 1; k < n; ++k)
-      if (highest(k) > highest(best)) best = k;
-    if (n > 0) w0_[best] = w1_[best] = w2_[best] = 1.0;
-    total = 3.0;
-  }
-  const double inverse = 1.0 / total;
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double share = ((w0_[k] + w1_[k]) + w2_[k]) * inverse;
-    if (share == 0.0) continue;
-    shares_.triangle[kept] = shares_.triangle[k];
-    shares_.share[kept] = share;
-    shares_.at0[kept] = w0_[k] * inverse;
-    shares_.at1[kept] = w1_[k] * inverse;
-    shares_.at2[kept] = w2_[k] * inverse;
-    ++kept;
-  }
-  shares_.triangle.resize(kept);
+  const double part = candidates.area[t] * step * step;
+  at0_[t] = part * sum0;
+  at1_[t] = part * sum1;
+  at2_[t] = part * sum2;
 }
 
 }  // namespace abradem::wear

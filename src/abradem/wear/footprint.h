@@ -9,20 +9,26 @@
 
 namespace abradem::wear {
 
-/// How the wear of one contact falls on the triangles under it: shares that sum to one, and of each share
-/// what falls to the triangle's three vertices (the shape functions' moments of the pressure).
+/// How the wear of one contact falls on the surface under it.
+///
+/// Where the surface is fine against the footprint: the load of each node, pressure times its share of area
+/// (`at_node`). The depth worn is then the pressure at the node itself, with no smearing over its neighbours.
+/// Elsewhere: for each of the first `count` candidate triangles the moments of the pressure with the shape
+/// functions of its three vertices (`at0` … `at2`), integrated over parts of the triangle.
 struct FootprintShares {
-  std::vector<std::int32_t> triangle;  ///< local, in the candidates
-  std::vector<double> share;           ///< [-]
-  std::vector<double> at0, at1, at2;   ///< parts of the share at the vertices; at0 + at1 + at2 = share
+  bool nodal = false;
+  std::span<const double> at_node;  ///< per candidate node, padded
+  std::size_t count = 0;
+  std::span<const double> at0, at1, at2;  ///< per candidate triangle
+  double total = 0.0;                     ///< sum of all
 };
 
-/// The overlapped surface of one patch as the footprints see it; all per candidate triangle.
+/// The overlapped surface of one patch as the footprints see it; per candidate
+/// triangle unless said.
 struct OverlapField {
-  std::span<const double> e0, e1, e2;  ///< excess 1 - |x - c|^2 / R^2 at the corners
-  std::span<const double> bound;       ///< no point of the triangle has a larger excess
-  double R = 0.0;                      ///< [m]
-  double deepest = 0.0;                ///< largest overlap g in the patch [m]
+  std::span<const double> excess;  ///< 1 - |x - c|^2 / R^2 of each candidate node, padded
+  double R = 0.0;                  ///< [m]
+  double deepest = 0.0;            ///< largest overlap g in the patch [m]
 };
 
 /// Distributes wear by a pressure that depends on the local overlap g alone. docs/theory/wear.md#footprint
@@ -30,24 +36,27 @@ class FootprintIntegrator {
  public:
   /// Hertz: weight sqrt(max(0, d_e - 2 (g_max - g))), the pressure of an elastic half-space pressed by the
   /// approach d_e; only differences of g enter, so the height of the ball does not matter.
+  /// @param by_elements the rule that moves the surface wants the loads of elements, not of nodes
+  /// @param mask triangles of the patch (0: not); empty: all   @return valid until the next call
   const FootprintShares& hertz(const contact::MeshCandidates& candidates, const OverlapField& field,
-                               double d_e, std::span<const char> mask = {});
+                               double d_e, bool by_elements, std::span<const char> mask = {});
   /// Overlap: weight max(0, g), a bed of springs.
   const FootprintShares& overlap(const contact::MeshCandidates& candidates, const OverlapField& field,
-                                 std::span<const char> mask = {});
+                                 bool by_elements, std::span<const char> mask = {});
 
  private:
-  void select(const contact::MeshCandidates& candidates, const OverlapField& field, double cut,
-              std::span<const char> mask);
   template <typename Weight>
-  void integrate(double reach, const Weight& weight);
+  const FootprintShares& integrate(const contact::MeshCandidates& candidates, const OverlapField& field,
+                                   double cut, double reach, bool by_elements, std::span<const char> mask,
+                                   const Weight& weight);
+  [[nodiscard]] static double bound(const contact::MeshCandidates& candidates, const OverlapField& field,
+                                    std::size_t t) noexcept;
   template <typename Weight>
-  void subdivide(std::size_t k, int n, const Weight& weight);
-  void normalise();
+  void subdivide(const contact::MeshCandidates& candidates, const OverlapField& field, std::size_t t,
+                 int parts, const Weight& weight);
 
   FootprintShares shares_;
-  std::vector<double> e0_, e1_, e2_, l01_, l12_, l20_, area_, w0_, w1_, w2_;  // of the selected, padded
-  double longest_ = 0.0;
+  std::vector<double> at_node_, at0_, at1_, at2_;
 };
 
 }  // namespace abradem::wear

@@ -53,6 +53,9 @@ class WearingSurface {
     add_to_vertex(v[1], at1);
     add_to_vertex(v[2], at2);
   }
+  /// The same in two parts: what falls to a vertex now, and what an element has lost, for the record only.
+  void deposit_at_vertex(Index vertex, double volume) { add_to_vertex(vertex, volume); }
+  void book_element(Index triangle, double volume) { volume_[static_cast<std::size_t>(triangle)] += volume; }
   /// Books wear of one element for the rule of the paper, which knows elements only.
   void deposit_element(Index triangle, double volume);
 
