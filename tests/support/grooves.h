@@ -14,6 +14,7 @@ namespace abradem::test {
 
 struct Groove {
   double depth = 0.0, width = 0.0, area = 0.0;  ///< means over the sections [m, m, m^2]
+  double width_at_tenth = 0.0;                  ///< opening at a tenth of each section's depth [m]
   double depth_sd = 0.0;                        ///< over the sections [m]
   std::vector<double> profile;                  ///< mean sink at the distances asked for [m]
 };
@@ -38,6 +39,7 @@ inline Groove mean_of(std::span<const analysis::Contour> contours, double middle
     g.depth += c.depth / n;
     g.width += c.width / n;
     g.area += c.area / n;
+    g.width_at_tenth += analysis::opening(c.profile, 0.1 * c.depth) / n;
     for (std::size_t i = 0; i < across.size(); ++i)
       g.profile[i] +=
           0.5 * (sink_at(c.profile, middle + across[i]) + sink_at(c.profile, middle - across[i])) / n;

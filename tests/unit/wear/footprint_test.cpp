@@ -65,7 +65,7 @@ struct Pressed {
 Moments by_quadrature(const Pressed& p, const std::function<double(double g)>& weight,
                       std::vector<double>* share = nullptr) {
   const contact::MeshCandidates& m = p.scene.candidates;
-  constexpr int n = 60;
+  const int n = m.triangle_count() > 1000 ? 16 : 60;
   Moments sum;
   if (share != nullptr) share->assign(m.triangle_count(), 0.0);
   for (std::size_t t = 0; t < m.triangle_count(); ++t) {
