@@ -31,7 +31,12 @@ class DiscIntegrals {
     if (t0 < ta) angle_ += angle(h, t0, ta);
     if (tb < t1) angle_ += angle(h, tb, t1);
     add_chord(h, w2, ta, tb);
+    cut_ = cut_ || ta < tb;
   }
+
+  /// Does the triangle miss the disc? With no edge inside, the angles sum to nothing (or to a whole turn
+  /// where the triangle holds the disc); round-off of that sum must not look like a contact.
+  [[nodiscard]] bool empty() const noexcept { return !cut_ && angle_ < std::numbers::pi; }
 
   /// Integral of e^k dA over the overlap.
   [[nodiscard]] double moment(std::size_t k) const noexcept {
@@ -61,6 +66,7 @@ class DiscIntegrals {
   }
 
   double E_, angle_ = 0.0;
+  bool cut_ = false;
   std::array<double, series::kTerms + 1> chord_{};
 };
 
@@ -86,6 +92,7 @@ OverlapIntegrals overlap_of_triangle(const Vec3& a, const Vec3& b, const Vec3& c
     const double t0 = dot(p0, edge) / length;
     integrals.add_edge(h, t0, t0 + length);
   }
+  if (integrals.empty()) return {};
 
   const double R2 = R * R;
   double G = 0.0, M = 0.0, scale = 1.0;

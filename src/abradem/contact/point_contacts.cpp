@@ -84,13 +84,16 @@ std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandida
   accepted_.clear();
   for (const PointContact& p : touched_) {
     const auto [a, b] = feature_vertices(candidates, p);
-    // Owned by a stronger contact that touches the same feature: a face around it, or itself once more.
-    const bool owned = a >= 0 && std::ranges::any_of(accepted_, [&, a = a, b = b](const PointContact& q) {
-                         return has_vertex(candidates, q.triangle, a) &&
-                                has_vertex(candidates, q.triangle, b) &&
-                                (q.feature == Feature::face || norm2(q.point - p.point) < 1e-18 * R * R ||
-                                 rank(q.feature) < rank(p.feature));
-                       });
+    // Owned by a stronger contact that touches the same feature: a face around it, an edge that ends in it,
+    // or itself once more. (Not by an edge opposite to it: which of two triangles stands for an edge is
+    // arbitrary.)
+    const bool owned =
+        a >= 0 && std::ranges::any_of(accepted_, [&, a = a, b = b](const PointContact& q) {
+          if (q.feature == Feature::face)
+            return has_vertex(candidates, q.triangle, a) && has_vertex(candidates, q.triangle, b);
+          const auto [qa, qb] = feature_vertices(candidates, q);
+          return (qa == a || qb == a) && (qa == b || qb == b);
+        });
     if (!owned) accepted_.push_back(p);
   }
   return accepted_;
