@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Installs the build somewhere else and uses it as a stranger would.
 
-    check_package.py consumer BUILD_DIR   install, then find_package(abradem) from tests/package/consumer
+    check_package.py consumer BUILD_DIR   install, then find_package(abradem) from tests/package/consumer and examples
     check_package.py deb BUILD_DIR        pack a .deb, check its fields and its list of files
 """
 import pathlib
@@ -30,6 +30,10 @@ def check_consumer(build, scratch):
         f"-DCMAKE_PREFIX_PATH={prefix}")
     run("cmake", "--build", scratch / "consumer")
     print(run(scratch / "consumer" / "consumer"), end="")
+    run("cmake", "-S", HERE.parent.parent / "examples", "-B", scratch / "examples", "-G", "Ninja",
+        "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_PREFIX_PATH={prefix}")
+    run("cmake", "--build", scratch / "examples")
+    print(run("ctest", "--test-dir", scratch / "examples", "--output-on-failure", "--no-tests=error"), end="")
     program = prefix / "bin" / "abradem"
     if has_program(build):
         print(run(program, "--version"), end="")
