@@ -150,8 +150,10 @@ void Simulation::choose_time_step() {
   // A whole number of steps per output, so that rows fall on whole revolutions.
   const double first = std::min(every, end_);
   const double count = std::max(1.0, std::ceil(first / wanted - 1e-9));
-  if (count > 1e15)
-    throw InputError(fmt::format("a time step of {:.3g} s makes {:.3g} steps", wanted, count));
+  if (const double steps = std::max(count, end_ / wanted); steps > 1e15)
+    throw InputError(
+        fmt::format("a time step of {:.3g} s makes {:.3g} steps to {:.3g} s; at most 1e15 are possible",
+                    wanted, steps, end_));
   steps_per_output_ = static_cast<std::uint64_t>(count);
   dt_ = first / count;
   total_steps_ = static_cast<std::uint64_t>(std::llround(end_ / dt_));
@@ -336,6 +338,9 @@ void Simulation::check_state() const {
     const Vec3& guide = particles_.guide[p];
     if (dot(particles_.position[p] - setup_.particles[p].position, guide) > particles_.radius[p])
       fail("it has moved by more than its radius along its guide: it has left the walls");
+    // A faster one may pass through a wall between two steps.
+    if (const double way = norm(particles_.velocity[p]) * dt_; way > kDeepest * particles_.radius[p])
+      fail(fmt::format("it moves {:.4g} mm in one step, more than a tenth of its radius", 1e3 * way));
     for (std::size_t w = 0; w < walls_.size(); ++w)
       for (const SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches())
         if (t.overlap > kDeepest * particles_.radius[p])
