@@ -32,11 +32,11 @@ void write_file(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-Outcome run_program(const std::string& arguments, const fs::path& folder) {
+Outcome run_program(const std::string& arguments, const fs::path& folder, const std::string& before) {
   const ScratchFolder scratch;
   const fs::path errors = scratch.path() / "stderr";
-  const std::string command = "cd '" + folder.string() + "' && exec '" ABRADEM_PROGRAM "' " + arguments +
-                              " 2>'" + errors.string() + "'";
+  const std::string command = "cd '" + folder.string() + "' && " + before +
+                              " && exec '" ABRADEM_PROGRAM "' " + arguments + " 2>'" + errors.string() + "'";
   std::FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot start a shell");
   Outcome outcome;

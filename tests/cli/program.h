@@ -13,7 +13,9 @@ struct Outcome {
 };
 
 /// Runs the program with these arguments (a shell reads them) in the given folder.
-[[nodiscard]] Outcome run_program(const std::string& arguments, const std::filesystem::path& folder = ".");
+/// @param before shell commands that go before it, such as "ulimit -f 40"
+[[nodiscard]] Outcome run_program(const std::string& arguments, const std::filesystem::path& folder = ".",
+                                  const std::string& before = "true");
 
 /// A folder of its own, removed at the end.
 class ScratchFolder {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "abradem/cli/print.h"
 #include "abradem/core/error.h"
 #include "abradem/geometry/mesh_check.h"
 #include "abradem/geometry/mesh_repair.h"
@@ -138,6 +139,7 @@ int check_mesh_command(const std::string& path, double unit, bool json) {
     print_json(path, as_read, done, verdict);
   else
     print_table(path, as_read, done, verdict);
+  print_result("");  // all of it has arrived
   return static_cast<int>(verdict.usable() ? ExitCode::ok : ExitCode::geometry);
 }
 

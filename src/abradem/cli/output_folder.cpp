@@ -8,8 +8,11 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <ranges>
+#include <utility>
 
 #include "abradem/core/error.h"
+#include "abradem/io/atomic_file.h"
 
 namespace abradem::cli {
 namespace {
@@ -28,39 +31,75 @@ constexpr std::array kWritten{"case.resolved.toml", "case.toml", "run.json", "ru
 /// Not part of a run; left behind only by a power cut between two lines below.
 void prove_writable(const fs::path& folder) {
   const fs::path probe = folder / ".abradem-write-test";
-  write_file(probe, "");
+  io::write_file_atomically(probe, "");
   std::error_code ignored;
   fs::remove(probe, ignored);
 }
 
 }  // namespace
 
-void prepare_output_folder(const fs::path& folder, bool force) {
+OutputFolder::OutputFolder(fs::path folder, bool force) : folder_(std::move(folder)) {
   std::error_code error;
-  const fs::file_status status = fs::status(folder, error);
+  const fs::file_status status = fs::status(folder_, error);
   if (fs::exists(status) && !fs::is_directory(status))
-    throw InputError(fmt::format("output folder '{}' is a file; choose another with -o", folder.string()));
-  if (!fs::exists(status)) {
-    fs::create_directories(folder, error);
-    if (error) cannot("cannot create the output folder", folder, error.message());
-    prove_writable(folder);
-    return;
+    throw InputError(fmt::format("output folder '{}' is a file; choose another with -o", folder_.string()));
+  try {
+    if (fs::exists(status))
+      take_over(force);
+    else
+      create();
+  } catch (const IoError&) {
+    discard();
+    throw;
   }
-  const bool empty = fs::is_empty(folder, error);
-  if (error) cannot("cannot read the output folder", folder, error.message());
-  if (!empty && !fs::exists(folder / kWritten.front(), error))
+}
+
+OutputFolder::~OutputFolder() {
+  if (kept_) return;
+  std::error_code ignored;
+  for (const char* name : kWritten) fs::remove_all(folder_ / name, ignored);
+  discard();
+}
+
+void OutputFolder::create() {
+  std::error_code error;
+  std::vector<fs::path> missing;
+  for (fs::path p = fs::absolute(folder_).lexically_normal(); !p.empty() && !fs::exists(p, error);
+       p = p.parent_path())
+    if (p.has_filename()) missing.insert(missing.begin(), p);
+  for (const fs::path& p : missing) {
+    if (!fs::create_directory(p, error) && error)
+      cannot("cannot create the output folder", folder_, error.message());
+    created_.push_back(p);
+  }
+  prove_writable(folder_);
+}
+
+void OutputFolder::take_over(bool force) {
+  std::error_code error;
+  const bool empty = fs::is_empty(folder_, error);
+  if (error) cannot("cannot read the output folder", folder_, error.message());
+  if (!empty && !fs::exists(folder_ / kWritten.front(), error))
     throw InputError(fmt::format(
-        "output folder '{}' holds files that are not of a run; choose another with -o", folder.string()));
+        "output folder '{}' holds files that are not of a run; choose another with -o", folder_.string()));
   if (!empty && !force)
     throw InputError(
         fmt::format("output folder '{}' already holds a run; add --force to replace it, or choose another "
                     "with -o",
-                    folder.string()));
-  prove_writable(folder);
-  for (const char* name : kWritten) {
-    fs::remove_all(folder / name, error);
-    if (error) cannot("cannot remove what an earlier run left,", folder / name, error.message());
+                    folder_.string()));
+  prove_writable(folder_);
+  // The file that tells the folder of a run goes last, so that a second try may follow a failed one.
+  for (const char* name : std::views::reverse(kWritten)) {
+    fs::remove_all(folder_ / name, error);
+    if (error) cannot("cannot remove what an earlier run left,", folder_ / name, error.message());
   }
+}
+
+/// Removes the folders created, as far as they are empty.
+void OutputFolder::discard() noexcept {
+  std::error_code ignored;
+  for (const fs::path& p : std::views::reverse(created_)) fs::remove(p, ignored);
+  created_.clear();
 }
 
 void write_file(const fs::path& path, std::string_view text) {

@@ -17,9 +17,11 @@ void print_result(std::string_view text) {
         fmt::format("the result cannot be written to the standard output: {}", std::strerror(errno)));
 }
 
-void print_message(std::string_view line) {
-  // A message that cannot be written has nobody to complain to.
-  fmt::print(stderr, "{}\n", line);
+void print_raw(std::string_view text) noexcept {
+  // A message that cannot be written has nobody to complain to; and a run goes on without a reader.
+  if (std::fwrite(text.data(), 1, text.size(), stderr) != text.size()) std::clearerr(stderr);
 }
+
+void print_message(std::string_view line) { print_raw(fmt::format("{}\n", line)); }
 
 }  // namespace abradem::cli

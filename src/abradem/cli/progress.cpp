@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "abradem/cli/print.h"
 #include "abradem/core/error.h"
 
 namespace abradem::cli {
@@ -59,7 +60,8 @@ RunLog::RunLog(const std::filesystem::path& path, bool quiet)
 RunLog::~RunLog() { std::fclose(file_); }
 
 void RunLog::write(std::string_view text) {
-  fmt::print(file_, "{:10.3f} s  {}\n", seconds_between(start_, Clock::now()), text);
+  // A log that the disk has no room for must not end the run; the results, written later, say so.
+  std::fputs(fmt::format("{:10.3f} s  {}\n", seconds_between(start_, Clock::now()), text).c_str(), file_);
   std::fflush(file_);
 }
 
@@ -67,23 +69,25 @@ void RunLog::line(std::string_view text) {
   write(text);
   if (quiet_) return;
   clear_status();
-  fmt::print(stderr, "{}\n", text);
+  print_message(text);
 }
 
-void RunLog::warning(std::string_view text) {
-  write(fmt::format("warning: {}", text));
+void RunLog::warning(std::string_view text) { always(fmt::format("warning: {}", text)); }
+void RunLog::error(std::string_view text) { always(fmt::format("abradem: error: {}", text)); }
+
+void RunLog::always(std::string_view text) {
+  write(text);
   clear_status();
-  fmt::print(stderr, "warning: {}\n", text);
+  print_message(text);
 }
 
 void RunLog::status(std::string_view text) {
-  fmt::print(stderr, "\r\033[K{}", text);
-  std::fflush(stderr);
+  print_raw(fmt::format("\r\033[K{}", text));
   status_shown_ = true;
 }
 
 void RunLog::clear_status() {
-  if (status_shown_) fmt::print(stderr, "\r\033[K");
+  if (status_shown_) print_raw("\r\033[K");
   status_shown_ = false;
 }
 
@@ -118,7 +122,7 @@ void Progress::output(const simulation::Simulation& run, const io::RunRecorder& 
 
 void summarise(const io::RunRecord& record, const std::filesystem::path& folder, RunLog& log) {
   const simulation::Ledger& l = record.ledger;
-  if (!record.error.empty()) log.warning(record.error);
+  if (!record.error.empty()) log.error(record.error);
   log.line(fmt::format("{} after {} steps in {:.2f} s ({} steps/s)", record.status, record.steps,
                        record.wall_seconds,
                        grouped(static_cast<double>(record.steps) / std::max(record.stepping_seconds, 1e-9))));

@@ -13,8 +13,8 @@
 
 namespace abradem::cli {
 
-/// Lines of a run: into run.log with the time since the start, and onto stderr unless quiet. Warnings always
-/// reach stderr.
+/// Lines of a run: into run.log with the time since the start, and onto stderr unless quiet. Warnings and
+/// errors always reach stderr.
 class RunLog {
  public:
   /// @throws IoError when the file cannot be written
@@ -25,6 +25,7 @@ class RunLog {
 
   void line(std::string_view text);
   void warning(std::string_view text);
+  void error(std::string_view text);
   [[nodiscard]] bool quiet() const noexcept { return quiet_; }
   /// stderr is a terminal that can show a line that changes.
   [[nodiscard]] bool on_terminal() const noexcept { return terminal_; }
@@ -33,6 +34,7 @@ class RunLog {
   void status(std::string_view text);
 
  private:
+  void always(std::string_view text);
   void write(std::string_view text);
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::FILE* file_ = nullptr;

@@ -16,7 +16,9 @@
 #include "abradem/core/error.h"
 #include "abradem/geometry/mesh_check.h"
 #include "abradem/geometry/mesh_repair.h"
+#include "abradem/io/atomic_file.h"
 #include "abradem/io/mesh_files.h"
+#include "abradem/io/placement.h"
 #include "abradem/io/run_record.h"
 #include "abradem/io/run_recorder.h"
 #include "abradem/report/report.h"
@@ -35,8 +37,8 @@ double seconds_since(Clock::time_point start) {
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
 
-/// Ctrl-C and a polite kill end the run at the next look, with everything written; a second one ends it at
-/// once.
+/// Ctrl-C, a polite kill and a closed terminal end the run at the next look, with everything written; a
+/// second one ends it at once. A reader that goes away (`… | head`) does not.
 class StopSignals {
  public:
   StopSignals() {
@@ -46,17 +48,24 @@ class StopSignals {
     action.sa_flags = static_cast<int>(SA_RESETHAND);
     sigaction(SIGINT, &action, &interrupt_);
     sigaction(SIGTERM, &action, &terminate_);
+    sigaction(SIGHUP, nullptr, &hang_up_);
+    if (hang_up_.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // not under nohup
+    action.sa_handler = SIG_IGN;
+    action.sa_flags = 0;
+    sigaction(SIGPIPE, &action, &pipe_);
   }
   ~StopSignals() {
     sigaction(SIGINT, &interrupt_, nullptr);
     sigaction(SIGTERM, &terminate_, nullptr);
+    sigaction(SIGHUP, &hang_up_, nullptr);
+    sigaction(SIGPIPE, &pipe_, nullptr);
   }
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
  private:
   struct sigaction interrupt_ {
-  }, terminate_{};
+  }, terminate_{}, hang_up_{}, pipe_{};
 };
 
 /// Meshes the generated shapes; reads, repairs and judges the others.
@@ -145,42 +154,24 @@ bool run_to_end(Simulation& run, io::RunRecorder& recorder, Progress& progress, 
   return true;
 }
 
-}  // namespace
-
-int run_case(const RunOptions& options) {
-  const Clock::time_point start = Clock::now();
-  if (options.threads > 0) omp_set_num_threads(options.threads);
-  // Everything that can be refused is refused before the folder exists.
-  Simulation run(options.setup, MeshLoader(options.setup));
-
-  prepare_output_folder(options.output, options.force);
-  write_file(options.output / "case.toml", options.case_text);
-  write_file(options.output / "case.resolved.toml", options.resolved_text);
-  RunLog log(options.output / "run.log", options.quiet);
-  log.line(fmt::format("{} -> {}", options.case_path.string(), options.output.string()));
-  announce(run, log);
-
-  io::RunRecord record;
-  record.threads = omp_get_max_threads();
-  report_limits(run.limits(), log, nullptr);
-  io::RunRecorder recorder(run, options.output);
-  {
-    const StopSignals signals;
-    Progress progress(log);
-    try {
-      if (!run_to_end(run, recorder, progress, record.stepping_seconds)) {
-        record.status = "interrupted";
-        record.exit_code = static_cast<int>(ExitCode::interrupted);
-      }
-    } catch (const SimulationError& e) {
-      // What was computed up to the last output stays; the state that failed is not a result.
-      record.status = "failed";
-      record.exit_code = static_cast<int>(ExitCode::unphysical);
-      record.error = e.what();
+void run_steps(Simulation& run, io::RunRecorder& recorder, RunLog& log, io::RunRecord& record) {
+  Progress progress(log);
+  try {
+    if (!run_to_end(run, recorder, progress, record.stepping_seconds)) {
+      record.status = "interrupted";
+      record.exit_code = static_cast<int>(ExitCode::interrupted);
     }
-    progress.finish();
+  } catch (const SimulationError& e) {
+    // What was computed up to the last output stays; the state that failed is not a result.
+    record.status = "failed";
+    record.exit_code = static_cast<int>(ExitCode::unphysical);
+    record.error = e.what();
   }
-  recorder.close();
+  progress.finish();
+}
+
+void complete_record(io::RunRecord& record, const Simulation& run, const io::RunRecorder& recorder,
+                     RunLog& log) {
   record.steps = run.steps();
   record.state_hash = run.state_hash();
   record.ledger = recorder.ledger();
@@ -193,10 +184,58 @@ int run_case(const RunOptions& options) {
         fmt::format("the ledger does not close: residual {:.3g}", record.ledger.residual));
     log.warning(record.warnings.back());
   }
-  record.wall_seconds = seconds_since(start);
-  const std::string json = io::to_json(record, options.setup);
-  write_file(options.output / "run.json", json);
-  report::write_report(options.output);
+}
+
+/// The disk is full or gone, in the middle of a run: says so in the manifest, if that can still be written.
+void try_to_record_failure(io::RunRecord& record, const RunOptions& options, const Simulation& run,
+                           const IoError& error) noexcept {
+  try {
+    record.status = "failed";
+    record.exit_code = static_cast<int>(error.code());
+    record.error = error.what();
+    record.steps = run.steps();
+    record.state_hash = run.state_hash();
+    io::write_file_atomically(options.output / "run.json", io::to_json(record, options.setup));
+  } catch (...) {
+    // The first error is the one to be told.
+  }
+}
+
+}  // namespace
+
+int run_case(const RunOptions& options) {
+  const Clock::time_point start = Clock::now();
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  // Everything that can be refused is refused before the folder exists.
+  Simulation run(options.setup, MeshLoader(options.setup));
+  io::refuse_misplaced_particles(run);
+
+  const StopSignals signals;
+  OutputFolder folder(options.output, options.force);
+  io::write_file_atomically(options.output / "case.resolved.toml", options.resolved_text);
+  io::write_file_atomically(options.output / "case.toml", options.case_text);
+  RunLog log(options.output / "run.log", options.quiet);
+  log.line(fmt::format("{} -> {}", options.case_path.string(), options.output.string()));
+  announce(run, log);
+
+  io::RunRecord record;
+  record.threads = omp_get_max_threads();
+  report_limits(run.limits(), log, nullptr);
+  io::RunRecorder recorder(run, options.output);
+  folder.keep();
+  std::string json;
+  try {
+    run_steps(run, recorder, log, record);
+    recorder.close();
+    complete_record(record, run, recorder, log);
+    record.wall_seconds = seconds_since(start);
+    json = io::to_json(record, options.setup);
+    io::write_file_atomically(options.output / "run.json", json);
+    report::write_report(options.output);
+  } catch (const IoError& error) {
+    try_to_record_failure(record, options, run, error);
+    throw;
+  }
 
   summarise(record, options.output, log);
   if (options.json) print_result(json);
