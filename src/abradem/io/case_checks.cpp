@@ -283,7 +283,7 @@ class Checker {
 
   void check_placement(const ParticleSetup& p, const std::string& path) {
     constexpr double kDeepest = 0.1;   // overlap over radius beyond which Hertz contact means nothing
-    constexpr double kFarthest = 1.0;  // gap over radius beyond which a pin is not meant to be
+    constexpr double kFarthest = 0.5;  // gap over radius beyond which a pin is not meant to be
     const bool guided = p.guide == Guide::vertical;
     const WallSetup* nearest = nullptr;  // the flat wall under the pin, or the one closest to be
     double nearest_outside = 0.0, nearest_gap = 0.0;

@@ -21,7 +21,7 @@ using simulation::MeshShape;
 using simulation::Wall;
 
 constexpr double kDeepest = 0.1;   // overlap over radius beyond which Hertz contact means nothing
-constexpr double kFarthest = 1.0;  // gap over radius beyond which a pin is not meant to be
+constexpr double kFarthest = 0.5;  // gap over radius beyond which a pin is not meant to be
 
 std::string mm(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
 
