@@ -16,38 +16,32 @@ const PairProperties kPair{
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 struct Comparison {
-  double force = 0.0;      // of the patch, over Hertz
-  double worst_G = 0.0;    // largest error of one triangle's G, over the sum
-  double sum_error = 0.0;  // of sum G_T n_T, relative
+  double of_hertz = 0.0;  // force over Hertz's on a plane
+  double of_exact = 0.0;  // force over that of the exact integrals of the same triangles
+  double tilt = 0.0;      // angle between the two normals [rad]
 };
 
-/// The fast path against the exact integrals, triangle by triangle.
+/// The evaluator against the exact integrals, triangle by triangle.
 Comparison compare(test::Scene& scene, const Vec3& c, double delta) {
   PatchEvaluator evaluator;
   MeshCandidates& m = scene.candidates_at(c, R);
   const auto patches = evaluator.evaluate(m, c, R, kPair);
-  Comparison result;
-  if (patches.size() != 1) return result;
-  result.force = patches[0].elastic_force / hertz_force(kPair, R, delta);
-  Vec3 fast, exact;
-  double total = 0.0;
+  if (patches.size() != 1) return {};
+  Vec3 G;
+  double M = 0.0;
   for (std::size_t t = 0; t < m.triangle_count(); ++t) {
-    const double G = overlap_of_triangle(m.node_position(at(m.v0[t])) - c, m.node_position(at(m.v1[t])) - c,
-                                         m.node_position(at(m.v2[t])) - c, R)
-                         .G;
-    const Vec3 n = Vec3{m.ax[t], m.ay[t], m.az[t]} / m.area[t];
-    const double mine = R * m.area[t] * evaluator.mean_overlap()[t];
-    fast += mine * n;
-    exact += G * n;
-    total += G;
-    result.worst_G = std::max(result.worst_G, std::abs(mine - G));
+    const OverlapIntegrals o =
+        overlap_of_triangle(m.node_position(at(m.v0[t])) - c, m.node_position(at(m.v1[t])) - c,
+                            m.node_position(at(m.v2[t])) - c, R);
+    G += o.G * (Vec3{m.ax[t], m.ay[t], m.az[t]} / m.area[t]);
+    M += o.M;
   }
-  result.worst_G /= total;
-  result.sum_error = norm(fast - exact) / norm(exact);
-  return result;
+  const Patch exact = make_patch(G, M, 0.0, R, kPair);
+  return {patches[0].elastic_force / hertz_force(kPair, R, delta),
+          patches[0].elastic_force / exact.elastic_force, norm(patches[0].n - exact.n)};
 }
 
-TEST(Patch, FastPathEqualsTheExactIntegralsOnFlatMeshes) {
+TEST(Patch, EqualsHertzAndTheExactIntegralsOnFlatMeshes) {
   for (const double fraction : {1e-4, 1e-3, 3e-3, 1e-2, 3e-2}) {
     const double delta = fraction * R, rim = std::sqrt(2.0 * R * delta);
     for (const double h : {0.05e-3, 0.1e-3, 0.2e-3, 0.5e-3, 1e-3, 2e-3}) {
@@ -57,16 +51,17 @@ TEST(Patch, FastPathEqualsTheExactIntegralsOnFlatMeshes) {
       for (int trial = 0; trial < 8; ++trial) {
         const Vec3 c{random.uniform(-0.5, 0.5) * h, random.uniform(-0.5, 0.5) * h, R - delta};
         const Comparison r = compare(scene, c, delta);
-        EXPECT_LT(r.worst_G, 1e-7) << fraction << " " << h;
-        EXPECT_LT(r.sum_error, 1e-7) << fraction << " " << h;
-        // M, a factor delta smaller than G, is what limits the force.
-        EXPECT_NEAR(r.force, 1.0, 1e-6) << fraction << " " << h;
+        EXPECT_NEAR(r.of_hertz, 1.0, 1e-6) << fraction << " " << h;
+        EXPECT_NEAR(r.of_exact, 1.0, 1e-6) << fraction << " " << h;
+        EXPECT_LT(r.tilt, 1e-12) << fraction << " " << h;
       }
     }
   }
 }
 
-TEST(Patch, FastPathEqualsTheExactIntegralsOnRoughMeshes) {
+// On rough meshes the nodal way is used up to edges of a third of the disc's radius. Its error is that of the
+// nodal rule at the rim, of the roughness alone: here 2 um on 40 um, 5 % of the overlap.
+TEST(Patch, StaysCloseToTheExactIntegralsOnRoughMeshes) {
   for (const double h : {0.05e-3, 0.1e-3, 0.3e-3}) {
     auto mesh = test::jittered_plate(1.5e-3, 1.5e-3, h, 0.25, 5);
     test::roughen(mesh, 2e-6, 9);
@@ -75,8 +70,8 @@ TEST(Patch, FastPathEqualsTheExactIntegralsOnRoughMeshes) {
     for (int trial = 0; trial < 8; ++trial) {
       const Vec3 c{random.uniform(-0.5, 0.5) * h, random.uniform(-0.5, 0.5) * h, R - 40e-6};
       const Comparison r = compare(scene, c, 40e-6);
-      EXPECT_LT(r.worst_G, 1e-7) << h;
-      EXPECT_LT(r.sum_error, 1e-6) << h;
+      EXPECT_NEAR(r.of_exact, 1.0, 3e-3) << h;
+      EXPECT_LT(r.tilt, 1e-3) << h;
     }
   }
 }
@@ -92,8 +87,6 @@ TEST(Patch, GivesTheForceDeepestPointAndNormalOfAPlane) {
   EXPECT_NEAR(p.overlap / delta, 1.0, 1e-7);
   EXPECT_NEAR(p.deepest / delta, 1.0, 1e-12);  // inside a triangle, deeper than any node
   EXPECT_NEAR(norm(p.n - Vec3{0, 0, 1}), 0.0, 1e-14);
-  // Elements in contact: as many as overlap the disc, about pi 2 R delta over their mean area.
-  EXPECT_NEAR(p.triangles, 4.0 * std::numbers::pi * R * delta / (0.15e-3 * 0.15e-3), 25.0);
 }
 
 TEST(Patch, IsEmptyJustOutOfReach) {

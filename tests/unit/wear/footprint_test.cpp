@@ -33,28 +33,25 @@ struct Pressed {
     const auto found = patches.evaluate(scene.candidates_at(c, 1.02 * R), c, R, kPair);
     deepest = found.front().deepest;
   }
-  [[nodiscard]] OverlapField field() const {
-    return {patches.corner_excess(0),
-            patches.corner_excess(1),
-            patches.corner_excess(2),
-            patches.bound(),
-            R,
-            deepest};
-  }
-  /// From the parts at the vertices.
+  [[nodiscard]] OverlapField field() const { return {patches.node_excess(), R, deepest}; }
+  /// From the loads of nodes, or the parts at the vertices of triangles; related to the total.
   [[nodiscard]] Moments moments(const FootprintShares& s) const {
     const contact::MeshCandidates& m = scene.candidates;
     Moments sum;
-    for (std::size_t k = 0; k < s.triangle.size(); ++k) {
-      const std::size_t t = at(s.triangle[k]);
-      const double parts[3]{s.at0[k], s.at1[k], s.at2[k]};
-      const std::int32_t v[3]{m.v0[t], m.v1[t], m.v2[t]};
-      for (int i = 0; i < 3; ++i) {
-        const Vec3 p = m.node_position(at(v[i])) - c;
-        sum.zero += parts[i];
-        sum.x += parts[i] * p.x;
-        sum.y += parts[i] * p.y;
-        sum.second += parts[i] * (p.x * p.x + p.y * p.y);
+    const auto add = [&](double load, std::size_t node) {
+      const Vec3 p = m.node_position(node) - c;
+      sum.zero += load / s.total;
+      sum.x += load / s.total * p.x;
+      sum.y += load / s.total * p.y;
+      sum.second += load / s.total * (p.x * p.x + p.y * p.y);
+    };
+    if (s.nodal) {
+      for (std::size_t i = 0; i < m.node_count(); ++i) add(s.at_node[i], i);
+    } else {
+      for (std::size_t t = 0; t < s.count; ++t) {
+        add(s.at0[t], at(m.v0[t]));
+        add(s.at1[t], at(m.v1[t]));
+        add(s.at2[t], at(m.v2[t]));
       }
     }
     return sum;
@@ -107,24 +104,21 @@ class Footprints : public testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(Footprints, SharesSumToOneAndSplitOnTheVertices) {
+TEST_P(Footprints, LoadsAreNotNegativeAndSumToTheTotal) {
   const auto [h, delta] = GetParam();
-  for (const double noise : {0.0, 0.03 * delta}) {
-    const Pressed p(mesh(h, noise), {0.13 * h, -0.21 * h, R - delta});
-    FootprintIntegrator footprint;
-    for (const bool hertz : {true, false}) {
-      const auto& s = hertz ? footprint.hertz(p.scene.candidates, p.field(), delta)
-                            : footprint.overlap(p.scene.candidates, p.field());
-      double sum = 0.0;
-      ASSERT_FALSE(s.triangle.empty());
-      for (std::size_t k = 0; k < s.triangle.size(); ++k) {
-        sum += s.share[k];
-        EXPECT_NEAR(s.at0[k] + s.at1[k] + s.at2[k], s.share[k], 1e-15);
-        EXPECT_GE(std::min({s.at0[k], s.at1[k], s.at2[k]}), 0.0);
+  for (const double noise : {0.0, 0.03 * delta})
+    for (const bool by_elements : {false, true})
+      for (const bool hertz : {true, false}) {
+        const Pressed p(mesh(h, noise), {0.13 * h, -0.21 * h, R - delta});
+        FootprintIntegrator footprint;
+        const auto& s = hertz ? footprint.hertz(p.scene.candidates, p.field(), delta, by_elements)
+                              : footprint.overlap(p.scene.candidates, p.field(), by_elements);
+        ASSERT_GT(s.total, 0.0);
+        EXPECT_TRUE(!s.nodal || !by_elements);
+        EXPECT_NEAR(p.moments(s).zero, 1.0, 1e-13);
+        for (const auto& loads : {s.at_node, s.at0, s.at1, s.at2})
+          for (const double load : loads) EXPECT_GE(load, 0.0);
       }
-      EXPECT_NEAR(sum, 1.0, 1e-13);
-    }
-  }
 }
 
 TEST_P(Footprints, MomentsEqualFineQuadrature) {
@@ -140,19 +134,22 @@ TEST_P(Footprints, MomentsEqualFineQuadrature) {
     };
     std::vector<double> share;
     const Moments exact = by_quadrature(p, weight, &share);
-    const auto& s = hertz ? footprint.hertz(p.scene.candidates, p.field(), d_e)
-                          : footprint.overlap(p.scene.candidates, p.field());
-    const Moments mine = p.moments(s);
-    const double reach = std::sqrt((hertz ? 1.0 : 2.0) * R * delta), scale = std::max(reach, h);
-    EXPECT_NEAR(mine.x, exact.x, 0.01 * scale);
-    EXPECT_NEAR(mine.y, exact.y, 0.01 * scale);
-    EXPECT_NEAR(mine.second, exact.second, 0.02 * scale * scale);
-    // Triangle by triangle, against the largest share.
-    double largest = 0.0, worst = 0.0;
-    for (const double x : share) largest = std::max(largest, x);
-    for (std::size_t k = 0; k < s.triangle.size(); ++k)
-      worst = std::max(worst, std::abs(s.share[k] - share[at(s.triangle[k])]));
-    EXPECT_LT(worst, 0.12 * largest);
+    for (const bool by_elements : {false, true}) {
+      const auto& s = hertz ? footprint.hertz(p.scene.candidates, p.field(), d_e, by_elements)
+                            : footprint.overlap(p.scene.candidates, p.field(), by_elements);
+      const Moments mine = p.moments(s);
+      const double reach = std::sqrt((hertz ? 1.0 : 2.0) * R * delta), scale = std::max(reach, h);
+      EXPECT_NEAR(mine.x, exact.x, 0.01 * scale);
+      EXPECT_NEAR(mine.y, exact.y, 0.01 * scale);
+      EXPECT_NEAR(mine.second, exact.second, 0.02 * scale * scale);
+      if (s.nodal) continue;
+      // Triangle by triangle, against the largest share.
+      double largest = 0.0, worst = 0.0;
+      for (const double x : share) largest = std::max(largest, x);
+      for (std::size_t t = 0; t < s.count; ++t)
+        worst = std::max(worst, std::abs((s.at0[t] + s.at1[t] + s.at2[t]) / s.total - share[t]));
+      EXPECT_LT(worst, 0.12 * largest);
+    }
   }
 }
 
@@ -161,8 +158,8 @@ TEST_P(Footprints, HertzDoesNotDependOnTheHeightOfTheBall) {
   const auto plate = mesh(h, 0.0);
   const Pressed deep(plate, {0.0, 0.0, R - delta}), shallow(plate, {0.0, 0.0, R - 0.7 * delta});
   FootprintIntegrator a, b;
-  const Moments p = deep.moments(a.hertz(deep.scene.candidates, deep.field(), delta));
-  const Moments q = shallow.moments(b.hertz(shallow.scene.candidates, shallow.field(), delta));
+  const Moments p = deep.moments(a.hertz(deep.scene.candidates, deep.field(), delta, false));
+  const Moments q = shallow.moments(b.hertz(shallow.scene.candidates, shallow.field(), delta, false));
   // Raising the ball by u changes the differences of depth by u / R only.
   EXPECT_NEAR(p.second / q.second, 1.0, 0.01);
 }
@@ -178,10 +175,12 @@ TEST(Footprint, OfAPlaneHasTheMomentsOfHertz) {
   const double delta = 40.8e-6;
   const Pressed p(test::jittered_plate(1.6e-3, 1.6e-3, 0.02e-3, 0.2), {0.0, 0.0, R - delta});
   FootprintIntegrator footprint;
-  EXPECT_NEAR(p.moments(footprint.hertz(p.scene.candidates, p.field(), delta)).second / (0.4 * R * delta),
-              1.0, 0.01);
-  EXPECT_NEAR(p.moments(footprint.overlap(p.scene.candidates, p.field())).second / (2.0 / 3.0 * R * delta),
-              1.0, 0.01);
+  EXPECT_NEAR(
+      p.moments(footprint.hertz(p.scene.candidates, p.field(), delta, false)).second / (0.4 * R * delta), 1.0,
+      0.01);
+  EXPECT_NEAR(
+      p.moments(footprint.overlap(p.scene.candidates, p.field(), false)).second / (2.0 / 3.0 * R * delta),
+      1.0, 0.01);
 }
 
 TEST(Footprint, KeepsToTheMaskedTriangles) {
@@ -190,13 +189,15 @@ TEST(Footprint, KeepsToTheMaskedTriangles) {
   for (std::size_t t = 0; t < mask.size(); ++t)
     mask[t] = p.scene.candidates.x[at(p.scene.candidates.v0[t])] > 0.0;
   FootprintIntegrator footprint;
-  const auto& s = footprint.hertz(p.scene.candidates, p.field(), 40e-6, mask);
+  const auto& s = footprint.hertz(p.scene.candidates, p.field(), 40e-6, false, mask);
+  ASSERT_FALSE(s.nodal);
   double sum = 0.0;
-  for (std::size_t k = 0; k < s.triangle.size(); ++k) {
-    EXPECT_TRUE(mask[at(s.triangle[k])]);
-    sum += s.share[k];
+  for (std::size_t t = 0; t < s.count; ++t) {
+    const double load = s.at0[t] + s.at1[t] + s.at2[t];
+    EXPECT_TRUE(load == 0.0 || mask[t] != 0);
+    sum += load;
   }
-  EXPECT_NEAR(sum, 1.0, 1e-13);
+  EXPECT_NEAR(sum / s.total, 1.0, 1e-13);
 }
 
 TEST(Footprint, SpotFinerThanTheSamplingFallsWhereItLies) {
@@ -204,9 +205,13 @@ TEST(Footprint, SpotFinerThanTheSamplingFallsWhereItLies) {
   const double delta = 1e-6 * 1e-6 / R;
   const Pressed p(test::jittered_plate(4e-3, 4e-3, 1e-3, 0.2), {0.31e-3, 0.12e-3, R - delta});
   FootprintIntegrator footprint;
-  const auto& s = footprint.hertz(p.scene.candidates, p.field(), delta);
-  ASSERT_EQ(s.triangle.size(), 1U);
-  const std::size_t t = at(s.triangle[0]);
+  const auto& s = footprint.hertz(p.scene.candidates, p.field(), delta, false);
+  ASSERT_FALSE(s.nodal);
+  std::vector<std::size_t> loaded;
+  for (std::size_t t = 0; t < s.count; ++t)
+    if (s.at0[t] > 0.0) loaded.push_back(t);
+  ASSERT_EQ(loaded.size(), 1U);
+  const std::size_t t = loaded[0];
   const auto hit =
       geometry::closest_point_on_triangle(p.c, p.scene.candidates.node_position(at(p.scene.candidates.v0[t])),
                                           p.scene.candidates.node_position(at(p.scene.candidates.v1[t])),
