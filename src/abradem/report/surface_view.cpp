@@ -198,9 +198,13 @@ SurfaceView resample(const WearMap& map, double z_mm, const Vec3& normal) {
   SurfaceView view;
   view.resampled = true;
   std::vector<Index> number(map.depth_um.size(), -1);
+  const auto cell_of = [&](int column, int row) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(map.u_count) +
+           static_cast<std::size_t>(column);
+  };
   for (int v = 0; v < map.v_count; ++v) {
     for (int u = 0; u < map.u_count; ++u) {
-      const std::size_t cell = static_cast<std::size_t>(v * map.u_count + u);
+      const std::size_t cell = cell_of(u, v);
       if (std::isnan(map.depth_um[cell])) continue;
       number[cell] = static_cast<Index>(view.x_mm.size());
       const double s = map.u_first + u * map.u_step, r = map.v_first + v * map.v_step;
@@ -213,9 +217,7 @@ SurfaceView resample(const WearMap& map, double z_mm, const Vec3& normal) {
   for (int v = 0; v + 1 < map.v_count; ++v) {
     for (int u = 0; u < columns; ++u) {
       const int next = (u + 1) % map.u_count;
-      const auto id = [&](int column, int row) {
-        return number[static_cast<std::size_t>(row * map.u_count + column)];
-      };
+      const auto id = [&](int column, int row) { return number[cell_of(column, row)]; };
       const Index a = id(u, v), b = id(next, v), c = id(next, v + 1), d = id(u, v + 1);
       if (a < 0 || b < 0 || c < 0 || d < 0) continue;
       // Seen from the normal's side; angle against radius is left-handed, x against y right-handed.
