@@ -133,12 +133,15 @@ function bandTraces(from, to, low, high, name) {
           { ...common, y: [high, high], fill: 'tonexty', fillcolor: css('--band'), name }];
 }
 
-// What the rows are counted in: revolutions, or time where nothing turns.
+// What the column `revolution` counts: 'revolution', 'cycle', or 'output' where nothing turns.
+let counted = 'revolution';
+
+// What the rows are plotted against: revolutions, or time where they do not count up.
 function abscissa(revolutions) {
   const turns = revolutions.revolution;
   const rises = turns.length < 2 || turns.every((v, k) => k === 0 || v > turns[k - 1]);
-  return rises ? { values: turns, title: 'revolutions [-]', word: 'revolution' }
-               : { values: revolutions.time_s, title: 'time [s]', word: 'output' };
+  return rises && counted !== 'output' ? { values: turns, title: `${counted}s [-]`, word: counted }
+                                       : { values: revolutions.time_s, title: 'time [s]', word: 'output' };
 }
 
 // ---------------------------------------------------------------- the worn surface in 3D
@@ -278,6 +281,7 @@ function volumeFigure({ revolutions }, { measured }) {
 function profileFigure({ profiles }, { thinned }) {
   const turns = unique(profiles.revolution);
   const menu = $('#fig-profiles [data-control="revolution"]');
+  menu.previousSibling.textContent = `After ${counted} `;
   menu.replaceChildren(...turns.map((t) => new Option(digits(t, 1 + Math.floor(Math.log10(Math.max(1, t)))), t, false, t === turns.at(-1))));
   figure('fig-profiles', (controls) => {
     if (!profiles.rows) return { empty: 'The run recorded no contours.' };
@@ -315,7 +319,7 @@ function spreadFigure(id, { contours, revolutions }, { column, factor, unit, nou
     const verdict = Number.isFinite(p) ? ` χ² test of normality: p = ${digits(p, 2)}, ${p < 0.05 ? 'so a normal distribution is rejected' : 'so a normal distribution is not rejected'} at 5 %.` : '';
     return { traces, layout: { bargap: 0.02, xaxis: axis(`${noun} [${unit}]`), yaxis: axis('contours [-]', { rangemode: 'tozero' }),
                                shapes: [{ type: 'line', x0: mean, x1: mean, y0: 0, y1: 1, yref: 'paper', line: { color: css('--ink'), width: 1.2, dash: 'dash' } }] },
-             caption: `${n} contours after revolution ${Number(turn.toPrecision(6))}: mean ${digits(mean)} ${unit} (dashed), sd ${digits(sd, 2)} ${unit}.${verdict}` };
+             caption: `${n} contours after ${counted} ${Number(turn.toPrecision(6))}: mean ${digits(mean)} ${unit} (dashed), sd ${digits(sd, 2)} ${unit}.${verdict}` };
   }, 'contours.csv', () => contours.csv);
 }
 
@@ -351,9 +355,9 @@ function boxFigure({ force }) {
     turn.forEach((t, r) => { if (wanted.has(t)) { x.push(String(t)); y.push(force.normal_force_N[r]); } });
     return { traces: [{ type: 'box', x, y, boxpoints: 'outliers', line: { color: css('--s1'), width: 1.3 }, fillcolor: css('--s1-band'), name: '',
                         marker: { color: css('--s1'), size: 3, opacity: .6 }, showlegend: false }],
-             layout: { margin: { l: 56, r: 12, t: 12, b: 48 }, boxgap: .35, xaxis: axis('revolution [-]', { type: 'category', showgrid: false }), yaxis: axis('normal force [N]') },
+             layout: { margin: { l: 56, r: 12, t: 12, b: 48 }, boxgap: .35, xaxis: axis(`${counted} [-]`, { type: 'category', showgrid: false }), yaxis: axis('normal force [N]') },
              caption: 'Boxes: quartiles and median. Whiskers: the farthest samples within 1.5 times the box. Points: outliers.'
-                    + (shown.length < all.length ? ` ${shown.length} of ${all.length} revolutions, evenly spread.` : '') };
+                    + (shown.length < all.length ? ` ${shown.length} of ${all.length} ${counted}s, evenly spread.` : '') };
   }, 'force.csv', () => force.csv);
 }
 
@@ -374,6 +378,7 @@ function forceFigure({ force }, { thinned }) {
 async function start() {
   if (typeof DecompressionStream === 'undefined') throw new Error('this browser is too old to unpack the figures (it needs DecompressionStream, 2023 or newer)');
   const facts = JSON.parse(await inflateText('data-facts'));
+  counted = facts.counted;
   const data = {};
   for (const name of ['revolutions', 'contours', 'profiles', 'force']) data[name] = await table(name);
   const arrays = {}, steps = facts.surface;

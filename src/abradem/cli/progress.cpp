@@ -40,15 +40,6 @@ std::string grouped(double count) {
   return out;
 }
 
-/// What the run counts: the first wall that turns or oscillates decides.
-std::string_view what_turns(const simulation::Setup& setup) {
-  for (const simulation::WallSetup& wall : setup.walls) {
-    if (wall.motion.kind == simulation::MotionKind::rotation && wall.motion.rate != 0.0) return "revolution";
-    if (wall.motion.kind == simulation::MotionKind::oscillation) return "cycle";
-  }
-  return "revolution";
-}
-
 }  // namespace
 
 RunLog::RunLog(const std::filesystem::path& path, bool quiet)
@@ -95,7 +86,7 @@ std::string Progress::state(const simulation::Simulation& run) const {
   const double elapsed = seconds_between(start_, Clock::now());
   const auto steps = static_cast<double>(run.steps()), total = static_cast<double>(run.total_steps());
   const double left = steps > 0.0 ? elapsed * (total - steps) / steps : 0.0;
-  const std::string where = run.turns() ? fmt::format("{} {:.2f}", what_turns(run.setup()), run.revolution())
+  const std::string where = run.turns() ? fmt::format("{} {:.2f}", io::counted(run.setup()), run.revolution())
                                         : fmt::format("{:.4g} s", run.time());
   return fmt::format("{}  {:.0f} %  {} steps/s  wear {:.4g} mm^3  {} left", where, 100.0 * steps / total,
                      grouped(steps / std::max(elapsed, 1e-9)), 1e9 * run.law_volume(), clock_time(left));

@@ -49,12 +49,21 @@ Json measurement_json(const simulation::MeasurementSetup& m) {
 
 }  // namespace
 
+std::string counted(const simulation::Setup& setup) {
+  for (const simulation::WallSetup& wall : setup.walls) {
+    if (wall.motion.kind == simulation::MotionKind::rotation && wall.motion.rate != 0.0) return "revolution";
+    if (wall.motion.kind == simulation::MotionKind::oscillation) return "cycle";
+  }
+  return "output";
+}
+
 std::string to_json(const RunRecord& record, const simulation::Setup& setup) {
   Json json;
   json["status"] = record.status;
   json["exit_code"] = record.exit_code;
   if (!record.error.empty()) json["error"] = record.error;
   json["case_title"] = setup.title;
+  json["counted"] = counted(setup);
   json["version"] = core::version();
   json["commit"] = core::commit();
   json["compiler"] = fmt::format("{} {}", core::compiler(), core::compiler_flags());

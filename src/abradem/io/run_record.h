@@ -28,6 +28,10 @@ struct RunRecord {
   std::vector<std::string> warnings;
 };
 
+/// What the tables' column `revolution` counts: "revolution" or "cycle" of the first wall that turns or
+/// oscillates, "output" where none does.
+[[nodiscard]] std::string counted(const simulation::Setup& setup);
+
 /// The record as JSON text.
 [[nodiscard]] std::string to_json(const RunRecord& record, const simulation::Setup& setup);
 

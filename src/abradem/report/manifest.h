@@ -49,6 +49,7 @@ struct Manifest {
   std::vector<std::pair<std::string, double>> results;  ///< last row of revolutions.csv; NaN where null
 
   std::string case_title;
+  std::string counted = "revolution";  ///< by the column `revolution`: revolution, cycle or output
   std::vector<LimitCheck> limits;
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, std::string>> setup;  ///< name and value, as text

@@ -93,10 +93,10 @@ std::string facts_json(const RunFolder& run, bool contours_thinned, bool profile
                                                json_number(lab.wear_volume_mm3->sd))
                                  : "null";
   return fmt::format(
-      R"({{"measured":{{"volume_mm3":{},"depth_um":{},"width_mm":{}}},"surface":{},"surface_note":{},)"
+      R"({{"counted":{},"measured":{{"volume_mm3":{},"depth_um":{},"width_mm":{}}},"surface":{},"surface_note":{},)"
       R"("thinned":{{"contours":{},"profiles":{},"force":{}}}}})",
-      volume, band_json(lab.depth_mm, 1e3), band_json(lab.width_mm, 1.0), surface_json(run),
-      json_string(run.surface_note), contours_thinned, profiles_thinned, force_thinned);
+      json_string(run.manifest.counted), volume, band_json(lab.depth_mm, 1e3), band_json(lab.width_mm, 1.0),
+      surface_json(run), json_string(run.surface_note), contours_thinned, profiles_thinned, force_thinned);
 }
 
 std::string data_blocks(const RunFolder& run) {
