@@ -27,6 +27,12 @@ std::filesystem::path made(const std::filesystem::path& folder) {
   return folder;
 }
 
+/// What the tables' column `revolution` counts: turns or cycles; output intervals where nothing turns.
+double revolution_of(const Simulation& run) {
+  return run.turns() ? run.revolution()
+                     : static_cast<double>(run.steps()) / static_cast<double>(run.steps_per_output());
+}
+
 /// How far each vertex has sunk below where it began [um].
 std::vector<double> depths_um(const wear::WearingSurface& surface) {
   std::vector<double> depth(surface.mesh().vertices.size());
@@ -61,7 +67,7 @@ void RunRecorder::observe(const Simulation& run) {
   const simulation::ForceSample f = run.force_on(watched_particle_);
   normal_force_.add(f.normal);
   if (run.steps() % force_stride_ == 0)
-    force_.row({f.time, run.revolution(), f.normal, f.tangential, 1e6 * f.overlap,
+    force_.row({f.time, revolution_of(run), f.normal, f.tangential, 1e6 * f.overlap,
                 static_cast<double>(run.elements_in_contact(watched_particle_))});
 }
 
@@ -103,7 +109,7 @@ void RunRecorder::output() {
   ledger_ = run_.ledger();
   const std::vector<analysis::Contour> contours =
       worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
-  last_ = analysis::revolution_row(run_.revolution(), run_.time(),
+  last_ = analysis::revolution_row(revolution_of(run_), run_.time(),
                                    {ledger_.law, ledger_.swept, ledger_.paper}, contours, normal_force_);
   normal_force_ = {};
   tables_.add(*last_, contours);
