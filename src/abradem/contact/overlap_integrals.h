@@ -17,8 +17,8 @@ struct OverlapIntegrals {
   double M = 0.0;  ///< its share of the weighted overlap volume, signed by the side the centre lies on [m^4]
 };
 
-/// Of one triangle, any size and position; exact up to a series in (overlap / R): at an overlap of 10 % of R the
-/// error is below 1e-7 of G and 1e-5 of M, at 3 % below 1e-11 and 3e-9. O(1).
+/// Of one triangle, any size and position; exact up to a series in (overlap / R): at an overlap of 10 % of R
+/// the error is below 1e-7 of G and 1e-5 of M, at 3 % below 1e-11 and 3e-9. O(1).
 /// @param a,b,c vertices relative to the ball's centre, counter-clockwise seen from outside   @param R radius
 [[nodiscard]] OverlapIntegrals overlap_of_triangle(const Vec3& a, const Vec3& b, const Vec3& c,
                                                    double R) noexcept;

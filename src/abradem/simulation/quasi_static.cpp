@@ -33,7 +33,9 @@ void Simulation::find_equilibrium(std::size_t p) {
       SphereWall& sw = sphere_walls_[p * walls_.size() + w];
       const geometry::Pose& pose = poses_[w];
       const Vec3 v = pose.turn_back(-pose.velocity_at(particles_.position[p]));
-      sw.find(walls_[w], pose.to_body(particles_.position[p]), v, R, properties, load, dt_);
+      const Vec3 c = pose.to_body(particles_.position[p]);
+      sw.prepare(walls_[w], c, v, R, properties, load, dt_);
+      sw.find(walls_[w], c, R, properties);
       const Vec3 guide_body = pose.turn_back(guide);
       approach = contact::hertz_overlap(properties, R, load);
       for (SphereWall::Touch& t : sw.touches()) {

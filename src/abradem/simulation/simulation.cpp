@@ -190,13 +190,21 @@ void Simulation::find_contacts() {
     for (std::size_t p = 0; p < particles_.size(); ++p) find_equilibrium(p);
     return;
   }
-  core::parallel_for(sphere_walls_.size(), [this](std::size_t k) {
+  const auto centre = [this](std::size_t p, std::size_t w) {
+    return poses_[w].to_body(particles_.position[p]);
+  };
+  for (std::size_t k = 0; k < sphere_walls_.size(); ++k) {
     const std::size_t p = k / walls_.size(), w = k % walls_.size();
-    const Vec3 c = poses_[w].to_body(particles_.position[p]);
     const Vec3 v =
         poses_[w].turn_back(particles_.velocity[p] - poses_[w].velocity_at(particles_.position[p]));
-    sphere_walls_[k].find(walls_[w], c, v, particles_.radius[p],
-                          pair(particles_.material[p], walls_[w].material()), norm(particles_.load[p]), dt_);
+    sphere_walls_[k].prepare(walls_[w], centre(p, w), v, particles_.radius[p],
+                             pair(particles_.material[p], walls_[w].material()), norm(particles_.load[p]),
+                             dt_);
+  }
+  core::parallel_for(sphere_walls_.size(), [&](std::size_t k) {
+    const std::size_t p = k / walls_.size(), w = k % walls_.size();
+    sphere_walls_[k].find(walls_[w], centre(p, w), particles_.radius[p],
+                          pair(particles_.material[p], walls_[w].material()));
   });
 }
 

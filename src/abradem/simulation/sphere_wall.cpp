@@ -19,26 +19,28 @@ Vec3 centroid(const contact::MeshCandidates& m, std::size_t t) noexcept {
 
 }  // namespace
 
-void SphereWall::find(Wall& wall, const Vec3& c, const Vec3& v, double R, const contact::PairProperties& pair,
-                      double load, double dt) {
+void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
+                         const contact::PairProperties& pair, double load, double dt) {
+  if (wall.is_plane()) return;
+  // The Hertz footprint reaches down to half its approach below the deepest point, which in a conforming
+  // groove lies outside the ball.
+  reach_ = R + 0.5 * contact::hertz_overlap(pair, R, load);
+  // Skin: some tens of steps of motion, but no more than the patch can hide in.
+  const double v_n = std::abs(dot(v, axis_)), v_t = std::sqrt(std::max(0.0, norm2(v) - v_n * v_n));
+  skin_ = {std::clamp(80.0 * v_t * dt, 0.005 * R, 0.1 * R), std::clamp(20.0 * v_n * dt, 0.001 * R, 0.1 * R)};
+  stale_ = candidates_.stale(wall.view(), c, reach_);
+  if (stale_ || wall.setup().contact != ContactRule::patch) add_centroid_motion(wall);
+  if (stale_) book_elements(wall);
+}
+
+void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
   if (wall.is_plane()) {
     touches_.clear();
     touch_plane(wall, c, R, pair);
     return;
   }
-  // The Hertz footprint reaches down to half its approach below the deepest point, which in a conforming
-  // groove lies outside the ball.
-  const double reach = R + 0.5 * contact::hertz_overlap(pair, R, load);
-  // Skin: some tens of steps of motion, but no more than the patch can hide in.
-  const double v_n = std::abs(dot(v, axis_)), v_t = std::sqrt(std::max(0.0, norm2(v) - v_n * v_n));
-  const contact::CandidateSkin skin{std::clamp(80.0 * v_t * dt, 0.005 * R, 0.1 * R),
-                                    std::clamp(20.0 * v_n * dt, 0.001 * R, 0.1 * R)};
-  const contact::SurfaceView view = wall.view();
-  const bool stale = candidates_.stale(view, c, reach);
-  if (stale || wall.setup().contact != ContactRule::patch) add_centroid_motion(wall);
-  if (stale) book_elements(wall);
-  candidates_.update(view, c, axis_, reach, skin);
-  if (stale) note_centroids();
+  candidates_.update(wall.view(), c, axis_, reach_, skin_);
+  if (stale_) note_centroids();
   touches_.clear();
 
   if (wall.setup().contact == ContactRule::patch) {

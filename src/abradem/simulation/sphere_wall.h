@@ -39,10 +39,15 @@ class SphereWall {
     contact::ContactForce force;
   };
 
-  /// Finds the contacts of a sphere at c, in the wall's frame, moving at v there.
+  /// First part of the search, in the order of particles: settles what the last candidates still owe the
+  /// wall.
+  /// @param c,v position and velocity of the sphere in the wall's frame
   /// @param load a force of the size to be expected, for the margin of the search [N]
-  void find(Wall& wall, const Vec3& c, const Vec3& v, double R, const contact::PairProperties& pair,
-            double load, double dt);
+  void prepare(Wall& wall, const Vec3& c, const Vec3& v, double R, const contact::PairProperties& pair,
+               double load, double dt);
+  /// Finds the contacts of the sphere at c, in the wall's frame. Touches nothing but this object: many may
+  /// run at once.
+  void find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
 
   /// Forces of the contacts found [world frame], and their histories one step on.
   ForceAndTorque compute(const Wall& wall, const geometry::Pose& pose, const SphereState& sphere,
@@ -103,7 +108,10 @@ class SphereWall {
   std::vector<Memory> memory_, kept_;
   std::vector<char> mask_;
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
-  Vec3 axis_;                         // towards the surface, from the last contact
+  bool stale_ = true;  // the candidates were gathered anew in this step
+  double reach_ = 0.0;
+  contact::CandidateSkin skin_;
+  Vec3 axis_;  // towards the surface, from the last contact
   double centroid_volume_ = 0.0;
   std::vector<Vec3> centroid_;  // of each candidate when last noted
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "abradem/contact/overlap_series.h"
+#include "abradem/contact/triangle_excess.h"
 #include "abradem/core/simd.h"
 
 namespace abradem::wear {
@@ -111,11 +112,16 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
   }
   if (!(shares_.total > 0.0) && n > 0) {
     // A spot finer than the finest sampling: all of it to the triangle that reaches deepest.
+    const auto deepest = [&](std::size_t t) {
+      const auto e = [&](std::int32_t v) { return field.excess[static_cast<std::size_t>(v)]; };
+      const double inverse = 1.0 / (field.R * field.R);
+      return contact::triangle_excess(e(candidates.v0[t]), e(candidates.v1[t]), e(candidates.v2[t]),
+                                      candidates.l01[t] * inverse, candidates.l12[t] * inverse,
+                                      candidates.l20[t] * inverse);
+    };
     std::size_t best = 0;
     for (std::size_t t = 1; t < n; ++t)
-      if (!masked_out(t) &&
-          (masked_out(best) || bound(candidates, field, t) > bound(candidates, field, best)))
-        best = t;
+      if (!masked_out(t) && (masked_out(best) || deepest(t) > deepest(best))) best = t;
     at0_[best] = at1_[best] = at2_[best] = 1.0;
     shares_.total = 3.0;
   }
