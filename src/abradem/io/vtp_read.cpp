@@ -178,7 +178,7 @@ class BlockReader {
     if (from > text.size() || count > text.size() - from) damaged();
     return text.substr(from, count);
   }
-  [[nodiscard]] std::string checked(std::string bytes, std::size_t from, std::size_t size) const {
+  [[nodiscard]] std::string checked(const std::string& bytes, std::size_t from, std::size_t size) const {
     if (bytes.size() < from || bytes.size() - from < size) damaged();
     return bytes.substr(from, size);
   }

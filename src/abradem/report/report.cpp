@@ -165,7 +165,7 @@ std::string make_page(const RunFolder& run) {
 }
 
 std::filesystem::path write_report(const std::filesystem::path& run_folder) {
-  const std::filesystem::path page = run_folder / "report.html";
+  std::filesystem::path page = run_folder / "report.html";
   write_whole(page, make_page(read_run_folder(run_folder)));
   return page;
 }
