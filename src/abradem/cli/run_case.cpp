@@ -179,11 +179,19 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
   record.limits = run.limits();
   record.warnings = run.warnings();
   report_limits(record.limits, log, &record.warnings);
-  if (record.ledger.residual > 1e-9) {
-    record.warnings.push_back(
-        fmt::format("the ledger does not close: residual {:.3g}", record.ledger.residual));
-    log.warning(record.warnings.back());
-  }
+  const auto warn = [&](std::string text) {
+    log.warning(text);
+    record.warnings.push_back(std::move(text));
+  };
+  if (record.ledger.residual > 1e-9)
+    warn(fmt::format("the ledger does not close: residual {:.3g}", record.ledger.residual));
+  for (const simulation::WearSetup& wear : run.setup().wear)
+    if (std::ranges::none_of(run.setup().walls, [&](const auto& wall) { return wall.material == wear.worn; }))
+      warn(fmt::format("[wear.\"{}/{}\"] has no effect: no wall is made of {}, and particles do not wear",
+                       wear.abrader, wear.worn, wear.worn));
+  if (record.status == "completed" && run.law_volume() == 0.0 &&
+      std::ranges::any_of(run.setup().wear, [](const auto& wear) { return wear.wear_coefficient > 0.0; }))
+    warn("a wear coefficient is given, but nothing was worn: does a wall slide under a particle?");
 }
 
 /// The disk is full or gone, in the middle of a run: says so in the manifest, if that can still be written.

@@ -51,8 +51,7 @@ using material::PairProperties;
 
 /// What a contact remembers from step to step.
 struct TangentialHistory {
-  Vec3 s;          ///< elastic tangential displacement [m]
-  double a = 0.0;  ///< contact radius of the last step [m]
+  Vec3 s;  ///< elastic tangential displacement [m]
 };
 
 /// Kinematics of one contact at one step. Velocities are of this body relative to the other, at the contact.
@@ -109,7 +108,7 @@ struct ContactForce {
     const double magnitude = norm(f.F_t);
     if (magnitude > limit) f.F_t *= limit / magnitude;
   }
-  history = {s, c.a};
+  history.s = s;
   return f;
 }
 

@@ -428,7 +428,7 @@ std::uint64_t Simulation::state_hash() const {
     hash.add(wall.surface().element_volume());
   }
   for (const SphereWall& sw : sphere_walls_) sw.add_to(hash);
-  for (const SpherePair& sp : sphere_pairs_) hash.add(sp.history.s), hash.add(sp.history.a);
+  for (const SpherePair& sp : sphere_pairs_) hash.add(sp.history.s);
   return hash.value();
 }
 

@@ -247,7 +247,7 @@ void SphereWall::note_centroids() {
 }
 
 void SphereWall::add_to(core::StateHash& hash) const {
-  for (const Memory& m : memory_) hash.add(m.history.s), hash.add(m.history.a);
+  for (const Memory& m : memory_) hash.add(m.history.s);
 }
 
 double SphereWall::take_centroid_volume(const Wall& wall) {

@@ -108,7 +108,7 @@ class SphereWall {
   std::vector<Memory> memory_, kept_;
   std::vector<char> mask_;
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
-  bool stale_ = true;  // the candidates were gathered anew in this step
+  bool stale_ = true;                 // the candidates were gathered anew in this step
   double reach_ = 0.0;
   contact::CandidateSkin skin_;
   Vec3 axis_;  // towards the surface, from the last contact
