@@ -92,9 +92,9 @@ bool MeshCandidates::stale(const SurfaceView& surface, const Vec3& c, double rea
 }
 
 void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
-                            const CandidateSkin& skin) {
+                            const CandidateSkin& skin, const Vec3& ahead) {
   if (stale(surface, c, reach)) {
-    gather(surface, c, axis, reach, skin);
+    gather(surface, c, axis, reach, skin, ahead);
   } else if (revision_ != surface.revision) {
     fetch_positions(surface.mesh);
     // Positions are always the mesh's own; areas and lengths may lag behind by half a per cent of an edge,
@@ -109,14 +109,15 @@ void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec
 }
 
 void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
-                            const CandidateSkin& skin) {
+                            const CandidateSkin& skin, const Vec3& ahead) {
+  const Vec3 middle = c + ahead;
   const TriangleMesh& mesh = surface.mesh;
   if (local_.size() != mesh.vertices.size()) local_.assign(mesh.vertices.size(), -1);
   // A little more than asked for, so that a reach that wavers does not gather every step.
   built_reach_ = reach + 0.25 * skin.normal;
   // With no axis every direction is as likely: the whole skin counts as both.
   const double whole = std::hypot(skin.tangential, skin.normal);
-  const Sweep sweep{c, axis, built_reach_, axis == Vec3{} ? CandidateSkin{whole, 0.0} : skin};
+  const Sweep sweep{middle, axis, built_reach_, axis == Vec3{} ? CandidateSkin{whole, 0.0} : skin};
   found_.clear();
   const auto [low, high] = sweep.box(surface);
   double furthest = 0.0;
@@ -163,7 +164,7 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   place_mean_plane(c, reach);
 
   gathered_ = true;
-  built_at_ = c;
+  built_at_ = middle;
   built_axis_ = axis;
   built_skin_ = skin;
   odometer_at_gather_ = odometer_at_measure_ = surface.odometer;

@@ -44,8 +44,11 @@ class MeshCandidates {
   /// vertices.
   /// @param axis unit vector from c towards the surface (the last contact's), or zero: unknown
   /// @param reach distance from c within which a triangle counts [m]
+  /// @param ahead where to put the middle of the skin, from c: towards where the sphere is going, by less
+  /// than
+  ///              the skin's tangential part, so that it is crossed from end to end [m]
   void update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
-              const CandidateSkin& skin);
+              const CandidateSkin& skin, const Vec3& ahead = {});
 
   /// Forgets everything, so that the next update gathers anew: makes a restarted run take the same steps.
   void reset() noexcept { gathered_ = false; }
@@ -77,7 +80,7 @@ class MeshCandidates {
 
  private:
   void gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
-              const CandidateSkin& skin);
+              const CandidateSkin& skin, const Vec3& ahead);
   void order_outwards(double furthest);
   void link_nodes();
   void place_mean_plane(const Vec3& c, double reach) noexcept;

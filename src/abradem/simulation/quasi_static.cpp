@@ -52,6 +52,9 @@ void Simulation::find_equilibrium(std::size_t p) {
     const double excess = carried - load;
     if (std::abs(excess) <= kTolerance * load) return;
     (excess < 0.0 ? low : high) = h;
+    // Where the force jumps (a contact begins, or is integrated in another way) the load lies inside the jump.
+    constexpr double kNarrow = 1e-9;  // of the Hertz approach
+    if (high - low <= kNarrow * approach) return;
 
     double move = approach;  // not in contact yet: come closer
     if (slope > 0.0) {
@@ -65,7 +68,6 @@ void Simulation::find_equilibrium(std::size_t p) {
     move = std::clamp(move, -0.5 * approach, 0.5 * approach);
     double next = h + move;
     if (next <= low || next >= high) next = 0.5 * (low + high);
-    if (next == h) return;  // the bracket is as narrow as numbers are
     particles_.position[p] += (next - h) * guide;
     h = next;
   }

@@ -26,8 +26,12 @@ void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
   // groove lies outside the ball.
   reach_ = R + 0.5 * contact::hertz_overlap(pair, R, load);
   // Skin: some tens of steps of motion, but no more than the patch can hide in.
-  const double v_n = std::abs(dot(v, axis_)), v_t = std::sqrt(std::max(0.0, norm2(v) - v_n * v_n));
+  const double v_n = std::abs(dot(v, axis_));
+  const Vec3 sliding = v - dot(v, axis_) * axis_;
+  const double v_t = norm(sliding);
   skin_ = {std::clamp(80.0 * v_t * dt, 0.005 * R, 0.1 * R), std::clamp(20.0 * v_n * dt, 0.001 * R, 0.1 * R)};
+  // The sphere starts near one end of the skin and slides to the other.
+  ahead_ = v_t > 0.0 ? sliding * (0.9 * skin_.tangential / v_t) : Vec3{};
   stale_ = candidates_.stale(wall.view(), c, reach_);
   if (stale_ || wall.setup().contact != ContactRule::patch) add_centroid_motion(wall);
   if (stale_) book_elements(wall);
@@ -39,7 +43,7 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
     touch_plane(wall, c, R, pair);
     return;
   }
-  candidates_.update(wall.view(), c, axis_, reach_, skin_);
+  candidates_.update(wall.view(), c, axis_, reach_, skin_, ahead_);
   if (stale_) note_centroids();
   touches_.clear();
 
