@@ -4,7 +4,7 @@
 #include "abradem/core/vec3.h"
 
 /// Integrals of a ball's overlap with a triangulated solid, the base of the contact rule `patch`.
-/// docs/theory/contact.md#patch derives them.
+/// docs/theory/contact-walls.md derives them.
 ///
 /// With g(x) = R - |x - c| the local overlap, the overlapped volume weighted by it,
 ///   M = integral of g over (solid and ball),   dM/dc = -sum_T G_T n_T,   G_T = integral of g over (T and

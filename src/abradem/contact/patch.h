@@ -20,7 +20,7 @@ struct Patch {
 /// The contact rule `patch`: the force is an integral over the overlapped surface, so it does not know the
 /// triangulation. F = K sum_T G_T n_T, with K a function of M alone and such that a plane gives Hertz
 /// exactly; so the force is the gradient of a potential and does no work around a closed loop.
-/// docs/theory/contact.md#patch
+/// docs/theory/contact-walls.md
 ///
 /// Two ways to integrate. In general exactly, triangle by triangle. Where the surface is nearly flat and fine
 /// against the patch (edges below a third of the disc's radius) over the nodes: the plane through the patch

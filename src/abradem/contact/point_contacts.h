@@ -20,7 +20,7 @@ struct PointContact {
 };
 
 /// The point-contact rules: what the sphere's ball touches, each feature once, face before edge before
-/// vertex. docs/theory/contact.md#point-contacts
+/// vertex. docs/theory/contact-walls.md#point-contacts
 class PointContactFinder {
  public:
   /// Rule `per_triangle`: every triangle whose nearest point lies within R is a contact of its own; a shared
