@@ -52,7 +52,8 @@ void Simulation::find_equilibrium(std::size_t p) {
     const double excess = carried - load;
     if (std::abs(excess) <= kTolerance * load) return;
     (excess < 0.0 ? low : high) = h;
-    // Where the force jumps (a contact begins, or is integrated in another way) the load lies inside the jump.
+    // Where the force jumps (a contact begins, or is integrated in another way) the load lies inside the
+    // jump.
     constexpr double kNarrow = 1e-9;  // of the Hertz approach
     if (high - low <= kNarrow * approach) return;
 
