@@ -33,7 +33,14 @@ void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
   // The sphere starts near one end of the skin and slides to the other.
   ahead_ = v_t > 0.0 ? sliding * (0.9 * skin_.tangential / v_t) : Vec3{};
   stale_ = candidates_.stale(wall.view(), c, reach_);
-  if (stale_ || wall.setup().contact != ContactRule::patch) add_centroid_motion(wall);
+  // Under `patch` what is worn stays in contact over a short slide.
+  constexpr double kShortSlide =
+      0.02;  // of R: well inside the margin between wear and the rim of the contact
+  if (stale_ || wall.setup().contact != ContactRule::patch ||
+      norm2(c - noted_at_) > kShortSlide * kShortSlide * R * R) {
+    add_centroid_motion(wall);
+    noted_at_ = c;
+  }
   if (stale_) book_elements(wall);
 }
 
@@ -211,8 +218,7 @@ double SphereWall::pending_volume() const noexcept {
   return sum;
 }
 
-/// Adds what the centroids of the elements in contact have moved since they were last noted. Under `patch`
-/// all worn elements stay in contact while the candidates last, so once per gathering is enough.
+/// Adds what the centroids of the elements in contact have moved since they were last noted.
 void SphereWall::add_centroid_motion(const Wall& wall) {
   if (wall.setup().deformation != DeformationRule::conserving) return;
   const auto touched = [&](std::size_t t) {

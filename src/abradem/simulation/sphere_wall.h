@@ -111,7 +111,7 @@ class SphereWall {
   bool stale_ = true;                 // the candidates were gathered anew in this step
   double reach_ = 0.0;
   contact::CandidateSkin skin_;
-  Vec3 ahead_;
+  Vec3 ahead_, noted_at_;
   Vec3 axis_;  // towards the surface, from the last contact
   double centroid_volume_ = 0.0;
   std::vector<Vec3> centroid_;  // of each candidate when last noted
