@@ -177,7 +177,6 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
   record.ledger = recorder.ledger();
   record.last = recorder.last();
   record.limits = run.limits();
-  record.warnings = run.warnings();
   report_limits(record.limits, log, &record.warnings);
   const auto warn = [&](std::string text) {
     log.warning(text);

@@ -30,7 +30,7 @@ struct CandidateSkin {
 
 /// The triangles of a mesh that one sphere can meet, gathered into small contiguous arrays with vertices of
 /// their own numbering. They stay valid while the sphere moves less than the skin, so that a step touches
-/// nothing but these arrays (8 kB for a contact of 200 triangles). Arrays are padded to whole SIMD lanes with
+/// nothing but these arrays. Arrays are padded to whole SIMD lanes with
 /// vertices out of reach and triangles of no area. Triangles are ordered from the middle of the contact
 /// outwards.
 class MeshCandidates {

@@ -15,7 +15,7 @@ namespace abradem::contact {
 namespace {
 
 /// The fast formulas hold for overlaps below about 3 % of R and edges below about a third of the disc's
-/// radius; there their error in force is below 1e-7 (tests/unit/contact/patch_test.cpp).
+/// radius; there their error in force is below 1e-6 (tests/unit/contact/patch_test.cpp).
 constexpr double kLargestFastExcess = 0.06;
 constexpr double kLargestFastEdge2 = 0.1;  // of the disc's radius squared
 

@@ -207,7 +207,7 @@ class Checker {
                                         readable(m.size), readable(narrowest(m))));
       return false;
     }
-    constexpr double kMost = 20e6;  // about 4 GB with everything kept per triangle
+    constexpr double kMost = 20e6;  // beyond what a workstation's memory is likely to hold
     const double triangles = estimated_triangles(m);
     if (triangles > kMost)
       error(path + ".size",

@@ -282,17 +282,16 @@ void Simulation::deform_walls() {
     const WallSetup& setup = walls_[w].setup();
     if (walls_[w].is_plane() || setup.deformation == DeformationRule::none) continue;
     wear::WearingSurface& surface = walls_[w].surface();
-    if (setup.deformation == DeformationRule::paper) {
+    const bool output_due = (steps_ + 1) % steps_per_output_ == 0 || steps_ + 1 >= total_steps_;
+    if (setup.deformation == DeformationRule::paper)
       paper_[w] += surface.deform_paper();
-    } else if ((steps_ + 1) % static_cast<std::uint64_t>(setup.deform_every) == 0 ||
-               steps_ + 1 >= total_steps_ || (steps_ + 1) % steps_per_output_ == 0) {
+    else if (output_due || (steps_ + 1) % static_cast<std::uint64_t>(setup.deform_every) == 0)
       surface.deform_conserving();
-    }
+    if (output_due) surface.check_orientation();  // elements beside the worn ones turn slowly
     const wear::DeformGuards& guards = surface.guards();
     if (guards.fatal_steps > 0 || guards.flipped > 0)
       throw SimulationError(fmt::format(
-          "wall '{}', step {}, {:.6g} s: {} {}: one update of the shape is too deep for the mesh. Lower the "
-          "wear "
+          "wall '{}', step {}, {:.6g} s: {} {}: the wear is too deep for the mesh. Lower the wear "
           "coefficient or spread it over more revolutions, or take a coarser mesh or a shorter step",
           setup.name, steps_, time(),
           guards.flipped > 0 ? "wear turned over triangle" : "wear moved by more than half a triangle vertex",

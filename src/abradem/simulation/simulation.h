@@ -102,7 +102,6 @@ class Simulation {
 
   /// Limits known before the run, and after it with what it met (largest stiffness, number of contacts).
   [[nodiscard]] std::vector<StabilityLimit> limits() const;
-  [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
   /// Hash of everything that the next step depends on.
   [[nodiscard]] std::uint64_t state_hash() const;
   /// Kinetic energy of all particles [J].
@@ -151,10 +150,8 @@ class Simulation {
   double dt_ = 0.0, period_ = 0.0, end_ = 0.0;
   std::uint64_t steps_ = 0, total_steps_ = 0, steps_per_output_ = 1;
   std::function<void(const Simulation&)> observer_;
-  std::vector<std::string> warnings_;
   std::vector<double> stiffness_ratio_;  // quasi_static: of each particle's contact, to Hertz's
   double worst_damping_ = 0.0;           // largest 2 g + W met
-  int most_contacts_ = 0;
 };
 
 /// Resolves a duration to seconds. @throws InputError when it is in revolutions and nothing turns

@@ -19,17 +19,14 @@ double damped_number(double stiffness, double damping, double mass, double dt) n
 void Simulation::watch_stability() {
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     double stiffness = 0.0, damping = 0.0;
-    int contacts = 0;
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       const auto& properties = pair(particles_.material[p], walls_[w].material());
       for (const SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches()) {
         const double S = contact::normal_stiffness(properties, t.a);
         stiffness += S;
         damping += contact::damping_coefficient(properties, S, particles_.mass[p]);
-        ++contacts;
       }
     }
-    most_contacts_ = std::max(most_contacts_, contacts);
     worst_damping_ = std::max(worst_damping_, damped_number(stiffness, damping, particles_.mass[p], dt_));
   }
 }

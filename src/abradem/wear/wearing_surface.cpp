@@ -264,6 +264,7 @@ double WearingSurface::deform_paper() {
     const Vec3 after =
         (mesh_.vertices[at(v[0])] + mesh_.vertices[at(v[1])] + mesh_.vertices[at(v[2])]) * (1.0 / 3.0);
     paper_volume += norm(after - before[k]) * area_before[k];
+    watch_orientation(t);
     pending_element_[at(t)] = 0.0;
   }
   touched_elements_.clear();
@@ -303,16 +304,18 @@ std::vector<Index> WearingSurface::worn_triangles() const {
   return worn;
 }
 
-void WearingSurface::check_orientation() {
-  for (const Index t : worn_triangles()) {
-    const Triangle& v = mesh_.triangles[at(t)];
-    const Vec3 before =
-        cross(reference_[at(v[1])] - reference_[at(v[0])], reference_[at(v[2])] - reference_[at(v[0])]);
-    if (dot(before, area_vector(mesh_, t)) <= 0.0) {
-      ++guards_.flipped;
-      guards_.worst_triangle = t;
-    }
+void WearingSurface::watch_orientation(Index t) noexcept {
+  const Triangle& v = mesh_.triangles[at(t)];
+  const Vec3 before =
+      cross(reference_[at(v[1])] - reference_[at(v[0])], reference_[at(v[2])] - reference_[at(v[0])]);
+  if (dot(before, area_vector(mesh_, t)) <= 0.0) {
+    ++guards_.flipped;
+    guards_.worst_triangle = t;
   }
+}
+
+void WearingSurface::check_orientation() {
+  for (const Index t : worn_triangles()) watch_orientation(t);
 }
 
 }  // namespace abradem::wear

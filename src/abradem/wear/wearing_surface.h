@@ -90,6 +90,7 @@ class WearingSurface {
   }
   void displace(Index v, double distance) noexcept;
   void watch(Index v, double distance) noexcept;
+  void watch_orientation(Index t) noexcept;
   void close_volume(std::span<const Index> vertices, std::vector<double>& distance);
 
   geometry::TriangleMesh mesh_;
