@@ -111,6 +111,26 @@ TEST(WholeRun, FillsTheFolderAsDocumented) {
   EXPECT_EQ(run["results"]["law_volume_mm3"], table(folder, "revolutions").column("law_volume_mm3").back());
 }
 
+TEST(WholeRun, WritesTheFramesThatAreAskedFor) {
+  const ScratchFolder scratch;
+  const auto frames = [&](const std::string& which) {
+    const Outcome outcome =
+        run_program(kRun + " -o " + which + " --set 'output.frames=" + which + "'", scratch.path());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const fs::path vtk = scratch.path() / which / "vtk";
+    if (!fs::exists(vtk)) return std::ptrdiff_t{0};
+    return std::count_if(fs::directory_iterator(vtk), {}, [](const fs::directory_entry& entry) {
+      return entry.path().filename().string().starts_with("disc_");
+    });
+  };
+  EXPECT_EQ(frames("all"), 3);  // the new surface and two outputs
+  EXPECT_EQ(frames("ends"), 2);
+  EXPECT_EQ(frames("none"), 0);
+  EXPECT_FALSE(fs::exists(scratch.path() / "none" / "series.pvd"));
+  EXPECT_EQ(read_file(scratch.path() / "none" / "tables" / "revolutions.csv"),
+            read_file(scratch.path() / "all" / "tables" / "revolutions.csv"));
+}
+
 TEST(WholeRun, JsonIsAllThatReachesStdout) {
   const ScratchFolder scratch;
   const Outcome outcome = run_program(kRun + " -o result --json", scratch.path());

@@ -146,7 +146,7 @@ bool run_to_end(Simulation& run, io::RunRecorder& recorder, Progress& progress, 
       });
     }
     if (due || stop_requested != 0) {
-      recorder.output();
+      recorder.output(run.finished() || stop_requested != 0);
       progress.output(run, recorder);
     }
     if (stop_requested != 0 && !run.finished()) return false;

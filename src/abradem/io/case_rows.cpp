@@ -19,6 +19,7 @@ constexpr std::array kMotions{"none"sv, "rotation"sv, "translation"sv, "oscillat
 constexpr std::array kContactRules{"patch"sv, "resolved"sv, "per_triangle"sv};
 constexpr std::array kDeformations{"none"sv, "conserving"sv, "paper"sv};
 constexpr std::array kFootprints{"hertz"sv, "overlap"sv};
+constexpr std::array kFrames{"all"sv, "ends"sv, "none"sv};
 constexpr std::array kGuides{"none"sv, "vertical"sv};
 constexpr std::array kMethods{"dynamic"sv, "quasi_static"sv};
 constexpr std::array kContactLaws{"hertz_mindlin"sv};
@@ -440,6 +441,15 @@ const std::array kRows{
         .default_note = "\"1 rev\"; a tenth of the run where nothing turns or oscillates",
         .example = "\"1 rev\"",
         .doc = "Interval between frames and rows of the tables: a time or revolutions (cycles)."},
+    Row{.section = "output",
+        .key = "frames",
+        .kind = Kind::choice,
+        .need = Need::has_default,
+        .slot = ABRADEM_CHOICE(setup->output.frames),
+        .choices = kFrames,
+        .example = "\"all\"",
+        .doc = "Outputs whose surfaces are written for ParaView: all, the new and the last one (ends), or "
+               "none."},
     Row{.section = "output",
         .key = "contours",
         .kind = Kind::integer,

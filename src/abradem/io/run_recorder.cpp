@@ -49,7 +49,7 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder)
       tables_(made(folder_ / "tables")),
       force_(folder_ / "tables" / "force.csv",
              {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts"}) {
-  made(folder_ / "vtk");
+  if (run.setup().output.frames != simulation::Frames::none) made(folder_ / "vtk");
   const auto& walls = run.walls();
   for (std::size_t w = 0; w < walls.size() && !worn_wall_; ++w)
     if (!walls[w].is_plane() && walls[w].setup().deformation != simulation::DeformationRule::none)
@@ -105,7 +105,7 @@ std::vector<analysis::Contour> RunRecorder::cut_contours() const {
   return contours;
 }
 
-void RunRecorder::output() {
+void RunRecorder::output(bool last) {
   ledger_ = run_.ledger();
   const std::vector<analysis::Contour> contours =
       worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
@@ -113,10 +113,11 @@ void RunRecorder::output() {
                                    {ledger_.law, ledger_.swept, ledger_.paper}, contours, normal_force_);
   normal_force_ = {};
   tables_.add(*last_, contours);
-  write_frame();
+  if (last || run_.setup().output.frames == simulation::Frames::all) write_frame();
 }
 
 void RunRecorder::write_frame() {
+  if (run_.setup().output.frames == simulation::Frames::none) return;
   const double time = run_.time();
   for (std::size_t w = 0; w < run_.walls().size(); ++w) {
     const simulation::Wall& wall = run_.walls()[w];

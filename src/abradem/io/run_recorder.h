@@ -25,8 +25,9 @@ class RunRecorder {
   /// Attaches itself to the simulation's steps; must outlive them. @throws IoError
   RunRecorder(simulation::Simulation& run, std::filesystem::path folder);
 
-  /// One output: a row of every table and a frame. @throws IoError
-  void output();
+  /// One output: a row of every table and, where they are asked for, a frame. @throws IoError
+  /// @param last no other follows
+  void output(bool last);
   /// Completes the tables; also what a failed or interrupted run has. @throws IoError
   void close();
 

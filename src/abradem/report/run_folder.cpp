@@ -62,7 +62,8 @@ void read_surface(RunFolder& run) {
   const std::filesystem::path series = run.folder / "series.pvd";
   std::error_code code;
   if (!std::filesystem::exists(series, code)) {
-    run.surface_note = "The run wrote no frames of the surface (there is no series.pvd).";
+    run.surface_note =
+        "The run wrote no frames of the surface: there is no series.pvd (output.frames = \"none\"?).";
     return;
   }
   run.surface_note = "No wall has worn in this run.";

@@ -118,9 +118,13 @@ struct RunSetup {
   bool operator==(const RunSetup&) const = default;
 };
 
+/// Outputs whose surfaces are written as frames: every one, the new and the last worn one, or none.
+enum class Frames { all, ends, none };
+
 struct OutputSetup {
   Duration every{1.0, true};  ///< frames and table rows
-  int contours = 360;         ///< sections of the worn surface per output
+  Frames frames = Frames::all;
+  int contours = 360;  ///< sections of the worn surface per output
   bool operator==(const OutputSetup&) const = default;
 };
 
