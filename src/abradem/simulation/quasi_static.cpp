@@ -13,17 +13,18 @@ namespace abradem::simulation {
 
 /// Finds the height h along the guide at which elastic forces plus sliding friction carry the load. Secant
 /// steps inside a bracket; the first step takes Hertz's stiffness times the ratio found at the last increment
-/// (a conforming groove is stiffer than the flat it began as).
+/// (a conforming groove is stiffer than the flat it began as). Where the force jumps over the load (a contact
+/// begins) the bracket closes around the jump. The forces found are scaled to carry the load exactly, which
+/// is what one more step would do to them.
 void Simulation::find_equilibrium(std::size_t p) {
-  constexpr double kTolerance =
-      1e-10;  // of the load: wear is linear in force, so the ledger's error is smaller
+  constexpr double kTolerance = 1e-6;  // of the load, before the forces are scaled
   constexpr int kMostSteps = 400;
   const Vec3 guide = particles_.guide[p];
   const double load = norm(particles_.load[p]) + particles_.mass[p] * dot(setup_.run.gravity, guide);
   const double R = particles_.radius[p];
   double h = 0.0;                                                      // of this search [m], along the guide
   double low = -std::numeric_limits<double>::infinity(), high = -low;  // too light at low, too heavy at high
-  double last_h = 0.0, last_excess = 0.0;
+  double last_h = 0.0, last_excess = 0.0, last_width = high;
   bool has_last = false;
 
   for (int iteration = 0; iteration < kMostSteps; ++iteration) {
@@ -50,25 +51,34 @@ void Simulation::find_equilibrium(std::size_t p) {
       }
     }
     const double excess = carried - load;
-    if (std::abs(excess) <= kTolerance * load) return;
     (excess < 0.0 ? low : high) = h;
-    // Where the force jumps (a contact begins, or is integrated in another way) the load lies inside the
-    // jump.
     constexpr double kNarrow = 1e-9;  // of the Hertz approach
-    if (high - low <= kNarrow * approach) return;
+    const bool jump = high - low <= kNarrow * approach;
+    if (std::abs(excess) <= kTolerance * load || (jump && excess > 0.0)) {
+      for (std::size_t w = 0; w < walls_.size(); ++w)
+        for (SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches()) {
+          t.force.F_n *= load / carried;
+          t.force.F_t = t.force.F_t * (load / carried);
+        }
+      return;
+    }
 
     double move = approach;  // not in contact yet: come closer
     if (slope > 0.0) {
       if (has_last && last_excess != excess) {
         const double secant = (excess - last_excess) / (h - last_h);
-        if (secant > 0.0) stiffness_ratio_[p] = secant / slope;
+        if (secant > 0.0) stiffness_ratio_[p] = std::clamp(secant / slope, 0.1, 10.0);
       }
       move = -excess / (slope * stiffness_ratio_[p]);
       last_h = h, last_excess = excess, has_last = true;
     }
     move = std::clamp(move, -0.5 * approach, 0.5 * approach);
     double next = h + move;
-    if (next <= low || next >= high) next = 0.5 * (low + high);
+    // Beside a jump secant steps creep along one side; halving gets across.
+    const bool creeping = iteration % 4 == 3 && high - low > 0.5 * last_width;
+    if (iteration % 4 == 3) last_width = high - low;
+    if (next <= low || next >= high || creeping) next = 0.5 * (low + high);
+    if (jump) next = high;
     particles_.position[p] += (next - h) * guide;
     h = next;
   }
