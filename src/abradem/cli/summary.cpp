@@ -7,6 +7,7 @@
 
 #include "abradem/core/units.h"
 #include "abradem/io/case_checks.h"
+#include "abradem/study/variations.h"
 
 namespace abradem::cli {
 namespace {
@@ -60,6 +61,13 @@ std::string summarize(const Setup& setup) {
   out += fmt::format("  run: {} {}, {}", core::format_number(end.value),
                      end.in_revolutions ? unit_of_counting(setup) : "s",
                      setup.run.method == Method::dynamic ? "dynamic" : "quasi-static");
+  if (setup.study) {
+    const std::size_t runs = study::plan(*setup.study).size();
+    out += fmt::format("\n  study: {} run{} in {} variation{}:", runs, runs == 1 ? "" : "s",
+                       setup.study->variations.size(), setup.study->variations.size() == 1 ? "" : "s");
+    for (const VariationSetup& v : setup.study->variations)
+      out += fmt::format(" {} ({})", v.name, study::count_runs(v, runs));
+  }
   return out;
 }
 

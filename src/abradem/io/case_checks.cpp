@@ -62,6 +62,7 @@ class Checker {
     for (const ParticleSetup& particle : setup_.particles) check_particle(particle);
     check_run();
     check_measurement();
+    check_published();
   }
 
  private:
@@ -399,6 +400,20 @@ class Checker {
     };
     check(setup_.measurement->depth, "measurement.depth");
     check(setup_.measurement->width, "measurement.width");
+  }
+
+  void check_published() {
+    if (!setup_.study || !good("study")) return;
+    const StudySetup& study = *setup_.study;
+    if (study.page == StudyPage::paper && study.published.empty())
+      error("study.page",
+            "page = \"paper\" compares with published values: name their file, published = "
+            "\"claims.json\"");
+    std::error_code ignored;
+    if (!study.published.empty() && !std::filesystem::is_regular_file(study.published, ignored))
+      error("study.published", fmt::format("there is no file '{}' (relative names start at the folder of the "
+                                           "case file)",
+                                           study.published));
   }
 
   const Setup& setup_;

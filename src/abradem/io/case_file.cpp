@@ -12,6 +12,7 @@
 #include "abradem/io/case_checks.h"
 #include "abradem/io/case_problems.h"
 #include "abradem/io/case_schema.h"
+#include "abradem/io/case_study.h"
 #include "abradem/io/case_toml.h"
 #include "abradem/io/case_values.h"
 
@@ -124,11 +125,18 @@ class CaseReader {
         problems_.error(parent_place, fmt::format("missing [{}]: {}", path, section.doc));
       if (section.presence == Presence::at_least_one)
         problems_.error(parent_place,
-                        fmt::format("the case has no {}; add [{}.NAME]: {}", word, path, section.doc));
+                        fmt::format("the case has no {}; add {}: {}", word,
+                                    section.naming == Naming::list ? fmt::format("[[{}]]", path)
+                                                                   : fmt::format("[{}.NAME]", path),
+                                    section.doc));
       if (section.presence != Presence::optional) places_.set_wrong(path);
       return;
     }
     places_.set(path, entry->place);
+    if (section.naming == Naming::list) {
+      read_list(section, *entry, target, path);
+      return;
+    }
     if (entry->value.type != Value::Type::table) {
       problems_.error(entry->value.place, fmt::format("'{}' {} is a table, not a value: {}", word,
                                                       header(parent_path), section.doc));
@@ -146,6 +154,24 @@ class CaseReader {
       places_.set_wrong(path);
     }
     for (const Entry& named : entry->value.entries) read_named(section, named, target, path);
+  }
+
+  /// [[path]], as often as it stands there.
+  void read_list(const Section& section, const Entry& entry, const Target& target, const std::string& path) {
+    const auto is_table = [](const Value& item) { return item.type == Value::Type::table; };
+    if (entry.value.type != Value::Type::array || entry.value.items.empty() ||
+        !std::ranges::all_of(entry.value.items, is_table)) {
+      problems_.error(entry.value.place, fmt::format("'{}' is a list of tables, each under [[{}]]: {}",
+                                                     entry.key, path, section.doc));
+      places_.set_wrong(path);
+      return;
+    }
+    for (const Value& item : entry.value.items) {
+      section.add(target);
+      Target inner = target;
+      section.enter(inner, section.count(inner) - 1);
+      read_table(section, item, item.place, inner, fmt::format("{}[{}]", path, section.count(inner)));
+    }
   }
 
   void read_named(const Section& section, const Entry& named, const Target& target, const std::string& path) {
@@ -224,6 +250,24 @@ void refuse_what_is_no_text(std::string_view text, const std::string& name) {
     throw InputError(fmt::format("'{}' is not a text file; expected a case file (TOML)", name));
 }
 
+/// The setup of a tree; what is wrong with it goes to `problems`.
+simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems& problems) {
+  simulation::Setup setup;
+  Places places;
+  CaseReader(problems, places).read_root(tree, setup);
+  const auto made_absolute = [&](std::string& file) {
+    if (!file.empty()) file = fs::absolute(folder / file).lexically_normal().string();
+  };
+  for (simulation::WallSetup& wall : setup.walls) made_absolute(wall.mesh.file);
+  if (setup.study) made_absolute(setup.study->published);
+  // The default of one frame per revolution has no meaning where nothing turns.
+  constexpr double kFrames = 10.0;
+  if (!places.given("output.every") && !counts_revolutions(setup))
+    setup.output.every = {setup.run.end.value / kFrames, false};
+  check_case(setup, places, problems);
+  return setup;
+}
+
 }  // namespace
 
 Case parse_case(std::string_view text, const std::string& name, const fs::path& folder,
@@ -232,20 +276,19 @@ Case parse_case(std::string_view text, const std::string& name, const fs::path& 
   Problems problems(name, std::string(text));
   Value tree = parse_toml(text, problems);
   problems.throw_if_any();  // nothing behind a syntax error can be trusted
-  for (const std::string& assignment : overrides) apply_override(tree, assignment, problems);
+  const Value base = tree;
+  std::vector<Value> changes;
+  for (const std::string& assignment : overrides) {
+    changes.push_back(parse_override(assignment, problems));
+    lay_over(tree, changes.back(), problems);
+  }
 
   Case result;
   result.text = text;
-  Places places;
-  CaseReader(problems, places).read_root(tree, result.setup);
-  for (simulation::WallSetup& wall : result.setup.walls)
-    if (!wall.mesh.file.empty())
-      wall.mesh.file = fs::absolute(folder / wall.mesh.file).lexically_normal().string();
-  // The default of one frame per revolution has no meaning where nothing turns.
-  constexpr double kFrames = 10.0;
-  if (!places.given("output.every") && !counts_revolutions(result.setup))
-    result.setup.output.every = {result.setup.run.end.value / kFrames, false};
-  check_case(result.setup, places, problems);
+  result.setup = read_tree(tree, folder, problems);
+  if (result.setup.study)
+    check_study(tree, base, changes, *result.setup.study, problems,
+                [&](const Value& run) { static_cast<void>(read_tree(run, folder, problems)); });
   problems.throw_if_any();
   result.notes = problems.notes();
   return result;

@@ -52,6 +52,12 @@ Json value_schema(const Row& row) {
     case Kind::force_down:
     case Kind::along_axis:
       return {{"anyOf", Json::array({quantity(row), vector_of(quantity(row))})}};
+    case Kind::changes:
+      return {{"type", "object"}, {"minProperties", 1}};
+    case Kind::variations:
+      return {{"type", "object"},
+              {"minProperties", 1},
+              {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}};
     case Kind::quantity:
     case Kind::duration:
     case Kind::time_step:
@@ -109,6 +115,9 @@ Json section_schema(const Section& section) {
     const std::string word(own_word(*child));
     if (child->naming == Naming::none) {
       properties[word] = section_schema(*child);
+    } else if (child->naming == Naming::list) {
+      properties[word] = {{"type", "array"}, {"items", section_schema(*child)}};
+      if (child->presence == Presence::at_least_one) properties[word]["minItems"] = 1;
     } else {
       const char* names = child->naming == Naming::pair ? "^[^/]+/[^/]+$" : "^[^/]+$";
       properties[word] = {{"type", "object"},

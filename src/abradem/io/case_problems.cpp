@@ -29,12 +29,17 @@ int Problems::add_source(std::string text) {
   return static_cast<int>(sources_.size()) - 1;
 }
 
-void Problems::error(const Place& place, std::string message) {
-  errors_.push_back({place, std::move(message)});
-}
+void Problems::error(const Place& place, std::string message) { add(errors_, place, std::move(message)); }
 
-void Problems::note(const Place& place, std::string message) {
-  notes_.push_back({place, std::move(message)});
+void Problems::note(const Place& place, std::string message) { add(notes_, place, std::move(message)); }
+
+/// The runs of a study share most of their case: what is wrong with it is said once.
+void Problems::add(std::vector<Problem>& list, const Place& place, std::string message) {
+  const auto same = [&](const Problem& p) {
+    return p.message == message && p.place.source == place.source && p.place.line == place.line &&
+           p.place.column == place.column;
+  };
+  if (std::ranges::none_of(list, same)) list.push_back({place, std::move(message)});
 }
 
 std::vector<std::string> Problems::notes() const {

@@ -43,6 +43,7 @@ class Problems {
   void throw_if_any();
 
  private:
+  static void add(std::vector<Problem>& list, const Place& place, std::string message);
   struct Source {
     std::string name;
     std::string text;

@@ -20,6 +20,7 @@ std::string cell(std::string_view text) {
 std::string heading(const Section& section) {
   if (section.path.empty()) return "Top of the file";
   std::string name(section.path);
+  if (section.naming == Naming::list) return fmt::format("`[[{}]]`", name.substr(0, name.rfind(".*")));
   const std::size_t star = name.find('*');
   if (star != std::string::npos)
     name.replace(star, 1, section.naming == Naming::pair ? "\"NAME/NAME\"" : "NAME");
@@ -55,6 +56,10 @@ std::string value_cell(const Row& row) {
       return "a time [s] or revolutions [rev]";
     case Kind::time_step:
       return "a time [s] or a share of the Rayleigh time [%]";
+    case Kind::changes:
+      return "table: key of the case = value";
+    case Kind::variations:
+      return "table: key of the case = list of values";
     case Kind::length_unit:
       return "a unit of length, or a length [m]";
   }

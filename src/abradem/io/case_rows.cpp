@@ -24,6 +24,7 @@ constexpr std::array kGuides{"none"sv, "vertical"sv};
 constexpr std::array kMethods{"dynamic"sv, "quasi_static"sv};
 constexpr std::array kContactLaws{"hertz_mindlin"sv};
 constexpr std::array kWearLaws{"archard"sv};
+constexpr std::array kStudyPages{"table"sv, "paper"sv, "scaling"sv};
 
 constexpr std::array kAnnulus{"annulus"sv};
 constexpr std::array kDisc{"disc"sv};
@@ -509,6 +510,53 @@ const std::array kRows{
         .limits = kNotNegative,
         .example = "\"0.80 mm\"",
         .doc = "Largest value found."},
+
+    Row{.section = "study",
+        .key = "page",
+        .kind = Kind::choice,
+        .need = Need::has_default,
+        .slot = ABRADEM_CHOICE(setup->study->page),
+        .choices = kStudyPages,
+        .example = "\"table\"",
+        .doc = "What is drawn from the runs: a table of their results (table), the figures and tables of the "
+               "published pin-on-disc study (paper), or what scaling the wear costs (scaling)."},
+    Row{.section = "study",
+        .key = "published",
+        .kind = Kind::file,
+        .need = Need::optional,
+        .slot = ABRADEM_SLOT(setup->study->published),
+        .example = "\"claims.json\"",
+        .doc = "File of published values that the page paper compares with, relative to the folder of the "
+               "case file."},
+    Row{.section = "study.variation.*",
+        .key = "name",
+        .kind = Kind::text,
+        .slot = ABRADEM_SLOT(variation->name),
+        .example = "\"mesh_size\"",
+        .doc = "Name of the group of runs and of its folder: letters, digits, _ and -."},
+    Row{.section = "study.variation.*",
+        .key = "set",
+        .kind = Kind::changes,
+        .need = Need::optional,
+        .slot = ABRADEM_SLOT(variation->set),
+        .example = "{ \"run.end\" = \"1 rev\" }",
+        .doc = "Keys that are changed in every run of the group; a --set goes over them."},
+    Row{.section = "study.variation.*",
+        .key = "together",
+        .kind = Kind::variations,
+        .need = Need::optional,
+        .slot = ABRADEM_SLOT(variation->together),
+        .example = "{ \"wall.disc.contact\" = [\"patch\", \"per_triangle\"], \"wall.disc.deformation\" = "
+                   "[\"conserving\", \"paper\"] }",
+        .doc = "Keys whose values go side by side: the first of each, the second of each, and so on; the "
+               "lists are equally long."},
+    Row{.section = "study.variation.*",
+        .key = "vary",
+        .kind = Kind::variations,
+        .need = Need::optional,
+        .slot = ABRADEM_SLOT(variation->vary),
+        .example = "{ \"wall.disc.mesh.size\" = [\"0.1 mm\", \"0.2 mm\"] }",
+        .doc = "Keys whose values are crossed with one another and with those that go together."},
 };
 
 #undef ABRADEM_SLOT

@@ -50,10 +50,23 @@ Target target_with_defaults() {
     s.measurement->wear_volume.emplace();
     s.measurement->depth.emplace();
     s.measurement->width.emplace();
+    s.study.emplace();
+    s.study->variations.emplace_back();
     return s;
   }();
-  return {&setup,         &setup.materials[0], &setup.contacts[0],
-          &setup.wear[0], &setup.walls[0],     &setup.particles[0]};
+  return {&setup,          &setup.materials[0], &setup.contacts[0],         &setup.wear[0],
+          &setup.walls[0], &setup.particles[0], &setup.study->variations[0]};
+}
+
+/// { "wall.disc.mesh.size" = ["0.1 mm", "0.2 mm"] }
+std::string format_varied(const Row& row, const std::vector<simulation::VariedKey>& keys) {
+  std::string out;
+  for (const simulation::VariedKey& k : keys) {
+    const std::string values = fmt::format("{}", fmt::join(k.values, ", "));
+    out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", toml_key(k.key),
+                       row.kind == Kind::variations ? "[" + values + "]" : values);
+  }
+  return "{ " + out + " }";
 }
 
 }  // namespace
@@ -123,7 +136,10 @@ std::optional<std::string> format_value(const Row& row, const Slot& slot) {
                         [&](std::monostate) -> Text {
                           return row.kind == Kind::version ? "1" : toml_string(row.choices.front());
                         },
-                        [&](const std::string* text) -> Text { return toml_string(*text); },
+                        [&](const std::string* text) -> Text {
+                          if (row.need == Need::optional && text->empty()) return std::nullopt;
+                          return toml_string(*text);
+                        },
                         [&](const double* value) -> Text { return format_scalar(row, *value); },
                         [&](const std::optional<double>* value) -> Text {
                           return *value ? Text(format_scalar(row, **value)) : std::nullopt;
@@ -145,6 +161,9 @@ std::optional<std::string> format_value(const Row& row, const Slot& slot) {
                         },
                         [&](const ChoiceSlot& choice) -> Text {
                           return toml_string(row.choices[static_cast<std::size_t>(choice.get())]);
+                        },
+                        [&](const std::vector<simulation::VariedKey>* keys) -> Text {
+                          return keys->empty() ? std::nullopt : Text(format_varied(row, *keys));
                         },
                     },
                     slot);

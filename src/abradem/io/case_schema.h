@@ -28,6 +28,7 @@ struct Target {
   simulation::WearSetup* wear = nullptr;
   simulation::WallSetup* wall = nullptr;
   simulation::ParticleSetup* particle = nullptr;
+  simulation::VariationSetup* variation = nullptr;
 };
 
 /// An enumeration behind its index in Row::choices.
@@ -38,7 +39,8 @@ struct ChoiceSlot {
 
 /// The member a row fills. monostate: nothing to store, the key has one allowed value.
 using Slot = std::variant<std::monostate, std::string*, double*, std::optional<double>*, Vec3*, int*,
-                          std::uint64_t*, simulation::Duration*, simulation::TimeStep*, ChoiceSlot>;
+                          std::uint64_t*, simulation::Duration*, simulation::TimeStep*, ChoiceSlot,
+                          std::vector<simulation::VariedKey>*>;
 
 enum class Kind {
   text,         ///< any text
@@ -55,6 +57,8 @@ enum class Kind {
   duration,     ///< a time or a number of revolutions
   time_step,    ///< a time or a percentage of the Rayleigh time
   length_unit,  ///< a unit of length ("mm")
+  changes,      ///< keys of the case, each with a value
+  variations,   ///< keys of the case, each with a list of values
 };
 
 enum class Need { required, has_default, optional };
@@ -89,7 +93,8 @@ struct Row {
 };
 
 enum class Presence { required, optional, at_least_one };
-enum class Naming { none, name, pair };  ///< [run], [wall.NAME], [contact."NAME/NAME"]
+/// [run], [wall.NAME], [contact."NAME/NAME"], [[study.variation]]
+enum class Naming { none, name, pair, list };
 
 struct Section {
   std::string_view path;  ///< "wall.*.mesh"; "*" stands for the name; the root is empty

@@ -112,6 +112,19 @@ const std::array kSections{
             .count = [](const Target& t) { return std::size_t{t.setup->measurement->width ? 1u : 0u}; },
             .add = [](const Target& t) { t.setup->measurement->width.emplace(); },
             .enter = stay},
+    Section{.path = "study",
+            .doc = "Makes the case a study: `abradem run` makes the runs of all its variations and draws one "
+                   "page from them.",
+            .count = [](const Target& t) { return std::size_t{t.setup->study ? 1u : 0u}; },
+            .add = [](const Target& t) { t.setup->study.emplace(); },
+            .enter = stay},
+    Section{.path = "study.variation.*",
+            .doc = "A group of runs: the case with some of its keys changed, one run for every combination.",
+            .presence = Presence::at_least_one,
+            .naming = Naming::list,
+            .count = [](const Target& t) { return t.setup->study->variations.size(); },
+            .add = [](const Target& t) { t.setup->study->variations.emplace_back(); },
+            .enter = [](Target& t, std::size_t i) { t.variation = &t.setup->study->variations[i]; }},
 };
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <string>
 #include <tuple>
 
+#include "abradem/io/case_schema.h"
+
 // toml++ 3.3 asserts (in an optimised clang build: assumes) that a table header starts with a key, and then
 // handles "[=" as the error it is. Text a person typed must reach that error, so the assertion is taken out.
 #undef NDEBUG
@@ -118,12 +120,6 @@ bool holds_named_entries(std::string_view key) {
   return key == "material" || key == "contact" || key == "wear" || key == "wall" || key == "particle";
 }
 
-/// Whether the entry is a step of a dotted key (a.b = …), which goes into the table there; an inline table
-/// (a = { … }) takes its place.
-bool is_dotted(const Entry& e) {
-  return e.value.type == Value::Type::table && e.value.place.column == e.place.column;
-}
-
 void overlay(Value& base, const Value& change, bool named, std::string_view parent, Problems& problems) {
   for (const Entry& e : change.entries) {
     Entry* existing = base.find(e.key);
@@ -159,10 +155,65 @@ Value parse_toml(std::string_view text, Problems& problems) {
   }
 }
 
-void apply_override(Value& tree, std::string_view assignment, Problems& problems) {
+bool is_dotted(const Entry& e) noexcept {
+  return e.value.type == Value::Type::table && e.value.place.column == e.place.column;
+}
+
+Value parse_override(std::string_view assignment, Problems& problems) {
   const int source = problems.add_source(std::string(assignment));
-  const Value change = parse_assignment(assignment, source, problems);
+  return parse_assignment(assignment, source, problems);
+}
+
+Value tree_of(std::string_view key, const Place& place, const Value& value, Problems& problems) {
+  Value tree;
+  try {
+    tree = convert(toml::parse(fmt::format("{} = 0", key)), place.source);
+  } catch (const toml::parse_error&) {
+    problems.error(place,
+                   fmt::format("'{}' is not a dotted key of the case, such as wall.disc.mesh.size; names "
+                               "with '/' or '.' are quoted",
+                               key));
+    return {};
+  }
+  // Everything stands where the key was written; equal places make the steps of the path dotted.
+  Value* node = &tree;
+  while (node->entries.size() == 1 && node->type == Value::Type::table) {
+    Entry& step = node->entries.front();
+    step.place = step.value.place = place;
+    node = &step.value;
+  }
+  *node = value;
+  return tree;
+}
+
+void lay_over(Value& tree, const Value& change, Problems& problems) {
   overlay(tree, change, false, "", problems);
+}
+
+std::string toml_text(const Value& value) {
+  std::string out;
+  switch (value.type) {
+    case Value::Type::boolean:
+      return value.boolean ? "true" : "false";
+    case Value::Type::integer:
+      return std::to_string(value.integer);
+    case Value::Type::number:
+      out = fmt::format("{}", value.number);
+      // An integer is another type in TOML.
+      return out.find_first_of(".en") == std::string::npos ? out + ".0" : out;
+    case Value::Type::text:
+      return toml_string(value.text);
+    case Value::Type::date:
+      return toml_string("a date");
+    case Value::Type::array:
+      for (const Value& item : value.items) out += (out.empty() ? "" : ", ") + toml_text(item);
+      return "[" + out + "]";
+    case Value::Type::table:
+      for (const Entry& e : value.entries)
+        out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", toml_key(e.key), toml_text(e.value));
+      return out.empty() ? "{}" : "{ " + out + " }";
+  }
+  return out;
 }
 
 }  // namespace abradem::io

@@ -8,6 +8,8 @@
 
 #include "abradem/core/suggest.h"
 #include "abradem/core/units.h"
+#include "abradem/io/case_study.h"
+#include "abradem/io/case_toml.h"
 
 namespace abradem::io {
 namespace {
@@ -79,6 +81,9 @@ class Reader {
         return store(time_step(value));
       case Kind::length_unit:
         return store(limited(value, length_unit(value)));
+      case Kind::changes:
+      case Kind::variations:
+        return store(varied(value));
     }
     return false;
   }
@@ -298,6 +303,36 @@ class Reader {
       return wrong(value,
                    fmt::format("a step above the Rayleigh time is never stable, got {}", written(value)));
     return result;
+  }
+
+  std::optional<std::vector<simulation::VariedKey>> varied(const Value& value) {
+    if (value.type != Value::Type::table)
+      return wrong(value, fmt::format("expected keys of the case with their values, such as {}, got {}",
+                                      row_.example, written(value)));
+    std::vector<simulation::VariedKey> keys;
+    bool good = true;
+    for (const KeyedValue& k : keyed_values(value)) {
+      if (k.key == "study" || k.key.starts_with("study.")) {
+        problems_.error(k.place, fmt::format("'{}': a run knows nothing of its study", k.key));
+        good = false;
+      }
+      if (row_.kind == Kind::changes) {
+        keys.push_back({k.key, {toml_text(*k.value)}});
+        continue;
+      }
+      if (k.value->type != Value::Type::array || k.value->items.empty()) {
+        problems_.error(
+            k.value->place,
+            fmt::format("'{}': expected a list of values, such as [\"0.1 mm\", \"0.2 mm\"], got {}", k.key,
+                        written(*k.value)));
+        good = false;
+        continue;
+      }
+      keys.push_back({k.key, {}});
+      for (const Value& item : k.value->items) keys.back().values.push_back(toml_text(item));
+    }
+    if (!good) return std::nullopt;
+    return keys;
   }
 
   std::optional<double> length_unit(const Value& value) {

@@ -144,6 +144,31 @@ struct MeasurementSetup {
   bool operator==(const MeasurementSetup&) const = default;
 };
 
+/// A key of the case that the runs of a study change, and its values as TOML text: one per run, or the only
+/// one.
+struct VariedKey {
+  std::string key;  ///< dotted, as for --set: wall.disc.mesh.size
+  std::vector<std::string> values;
+  bool operator==(const VariedKey&) const = default;
+};
+
+/// Some runs of a study that belong together: `set` is the same in all, `together` goes side by side (its
+/// lists are equally long), `vary` is crossed with it and with one another.
+struct VariationSetup {
+  std::string name;
+  std::vector<VariedKey> set, together, vary;
+  bool operator==(const VariationSetup&) const = default;
+};
+
+enum class StudyPage { table, paper, scaling };
+/// Many runs of one case, and what is drawn from them. A run itself knows nothing of it.
+struct StudySetup {
+  StudyPage page = StudyPage::table;
+  std::string published;  ///< file of published values to compare with, absolute; may be empty
+  std::vector<VariationSetup> variations;
+  bool operator==(const StudySetup&) const = default;
+};
+
 struct Setup {
   std::string title;
   std::vector<MaterialSetup> materials;
@@ -154,6 +179,7 @@ struct Setup {
   RunSetup run;
   OutputSetup output;
   std::optional<MeasurementSetup> measurement;
+  std::optional<StudySetup> study;
   bool operator==(const Setup&) const = default;
 };
 

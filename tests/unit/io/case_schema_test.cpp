@@ -20,7 +20,9 @@ const Json& section_of(const Json& schema, std::string_view path) {
   const Json* node = &schema;
   std::istringstream words{std::string(path)};
   for (std::string word; std::getline(words, word, '.');)
-    node = word == "*" ? &node->at("additionalProperties") : &node->at("properties").at(word);
+    node = word != "*"               ? &node->at("properties").at(word)
+           : node->contains("items") ? &node->at("items")
+                                     : &node->at("additionalProperties");
   return *node;
 }
 
