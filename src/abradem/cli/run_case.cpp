@@ -2,22 +2,18 @@
 #include "abradem/cli/run_case.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <omp.h>
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
-#include <optional>
 
+#include "abradem/cli/mesh_loader.h"
 #include "abradem/cli/output_folder.h"
 #include "abradem/cli/print.h"
 #include "abradem/cli/progress.h"
+#include "abradem/cli/stop_signals.h"
 #include "abradem/core/error.h"
-#include "abradem/geometry/mesh_check.h"
-#include "abradem/geometry/mesh_repair.h"
 #include "abradem/io/atomic_file.h"
-#include "abradem/io/mesh_files.h"
 #include "abradem/io/placement.h"
 #include "abradem/io/run_record.h"
 #include "abradem/io/run_recorder.h"
@@ -33,68 +29,6 @@ using simulation::Simulation;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-volatile std::sig_atomic_t stop_requested = 0;
-void request_stop(int) { stop_requested = 1; }
-
-/// Ctrl-C, a polite kill and a closed terminal end the run at the next look, with everything written; a
-/// second one ends it at once. A reader that goes away (`… | head`) does not.
-class StopSignals {
- public:
-  StopSignals() {
-    stop_requested = 0;
-    struct sigaction action {};
-    action.sa_handler = request_stop;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, &interrupt_);
-    sigaction(SIGTERM, &action, &terminate_);
-    sigaction(SIGHUP, nullptr, &hang_up_);
-    if (hang_up_.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // not under nohup
-    action.sa_handler = SIG_IGN;
-    action.sa_flags = 0;
-    sigaction(SIGPIPE, &action, &pipe_);
-  }
-  ~StopSignals() {
-    sigaction(SIGINT, &interrupt_, nullptr);
-    sigaction(SIGTERM, &terminate_, nullptr);
-    sigaction(SIGHUP, &hang_up_, nullptr);
-    sigaction(SIGPIPE, &pipe_, nullptr);
-  }
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-
- private:
-  struct sigaction interrupt_ {
-  }, terminate_{}, hang_up_{}, pipe_{};
-};
-
-/// Meshes the generated shapes; reads, repairs and judges the others.
-class MeshLoader {
- public:
-  explicit MeshLoader(const simulation::Setup& setup) {
-    for (const simulation::ParticleSetup& p : setup.particles)
-      largest_radius_ = std::max(largest_radius_.value_or(0.0), p.radius);
-  }
-
-  geometry::TriangleMesh operator()(const simulation::MeshSetup& mesh, std::uint64_t seed) const {
-    if (mesh.shape != simulation::MeshShape::file) return simulation::generate_mesh(mesh, seed);
-    geometry::TriangleMesh read = io::read_mesh(mesh.file, mesh.unit);
-    const geometry::RepairRecord repaired = geometry::repair_mesh(read);
-    if (repaired.changed())
-      print_message(fmt::format(
-          "warning: mesh '{}' was repaired in memory; `abradem check` says what was done", mesh.file));
-    const geometry::MeshVerdict verdict = geometry::judge_mesh(geometry::check_mesh(read), largest_radius_);
-    for (const std::string& warning : verdict.warnings)
-      print_message(fmt::format("warning: mesh '{}': {}", mesh.file, warning));
-    if (!verdict.usable())
-      throw GeometryError(fmt::format("mesh '{}': {}", mesh.file, fmt::join(verdict.errors, "; ")));
-    for (Vec3& p : read.vertices) p += mesh.position;
-    return read;
-  }
-
- private:
-  std::optional<double> largest_radius_;
-};
 
 void announce(const Simulation& run, RunLog& log) {
   for (const simulation::Wall& wall : run.walls())
@@ -142,14 +76,14 @@ bool run_to_end(Simulation& run, io::RunRecorder& recorder, Progress& progress, 
       const Stopwatch stopwatch(stepping_seconds);
       due = run.advance([&] {
         progress.update(run);
-        return stop_requested == 0;
+        return !StopSignals::requested();
       });
     }
-    if (due || stop_requested != 0) {
-      recorder.output(run.finished() || stop_requested != 0);
+    if (due || StopSignals::requested()) {
+      recorder.output(run.finished() || StopSignals::requested());
       progress.output(run, recorder);
     }
-    if (stop_requested != 0 && !run.finished()) return false;
+    if (StopSignals::requested() && !run.finished()) return false;
   }
   return true;
 }

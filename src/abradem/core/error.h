@@ -36,6 +36,10 @@ struct GeometryError : Error {
 struct SimulationError : Error {
   explicit SimulationError(const std::string& message) : Error(ExitCode::unphysical, message) {}
 };
+/// Someone asked to stop.
+struct Interrupted : Error {
+  explicit Interrupted(const std::string& message) : Error(ExitCode::interrupted, message) {}
+};
 struct IoError : Error {
   explicit IoError(const std::string& message) : Error(ExitCode::io, message) {}
 };

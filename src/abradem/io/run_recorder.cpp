@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "abradem/analysis/wall_contours.h"
 #include "abradem/core/error.h"
 
 namespace abradem::io {
 
 namespace {
 
-using simulation::MotionKind;
 using simulation::Simulation;
 
 constexpr int kProfiles = 8;          // positions whose whole profile is written
@@ -50,10 +49,7 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder)
       force_(folder_ / "tables" / "force.csv",
              {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts"}) {
   if (run.setup().output.frames != simulation::Frames::none) made(folder_ / "vtk");
-  const auto& walls = run.walls();
-  for (std::size_t w = 0; w < walls.size() && !worn_wall_; ++w)
-    if (!walls[w].is_plane() && walls[w].setup().deformation != simulation::DeformationRule::none)
-      worn_wall_ = w;
+  worn_wall_ = analysis::worn_wall(run.walls());
   for (std::size_t p = run.particles().size(); p-- > 0;)
     if (norm2(run.particles().load[p]) > 0.0) watched_particle_ = p;
   force_stride_ = static_cast<std::uint64_t>(
@@ -72,33 +68,8 @@ void RunRecorder::observe(const Simulation& run) {
 }
 
 std::vector<analysis::Contour> RunRecorder::cut_contours() const {
-  const simulation::Wall& wall = run_.walls()[*worn_wall_];
-  const auto& mesh = wall.surface().mesh();
-  const auto reference = wall.surface().reference();
-  const auto region = analysis::worn_region(mesh, reference);
-  const simulation::MotionSetup& motion = wall.setup().motion;
-  const int count = run_.setup().output.contours;
-  std::vector<analysis::Contour> contours;
-  if (motion.kind == MotionKind::rotation) {
-    contours = analysis::cut_contours(
-        mesh, reference, region,
-        analysis::RotaryCuts{.axis = motion.axis, .center = motion.center, .count = count});
-  } else {
-    // The groove runs along the motion; heights count along the wall's mean normal.
-    Vec3 normal;
-    for (geometry::Index t = 0; t < mesh.triangle_count(); ++t) normal += area_vector(mesh, t);
-    const Vec3 direction = motion.kind == MotionKind::translation ? motion.velocity : motion.amplitude;
-    if (norm2(direction) == 0.0 || norm2(normal) == 0.0) return {};
-    const auto extent = analysis::worn_extent(mesh, reference, region, {}, direction);
-    if (!extent) return {};
-    contours = analysis::cut_contours(
-        mesh, reference, region,
-        analysis::StraightCuts{.axis = normal, .direction = direction, .count = count, .along = *extent});
-    // The tables name sections by angle: here 0 to 360 degrees from one end of the groove to the other.
-    const double length = extent->high - extent->low;
-    for (auto& c : contours)
-      c.angle = length > 0.0 ? 2.0 * std::numbers::pi * (c.angle - extent->low) / length : 0.0;
-  }
+  std::vector<analysis::Contour> contours =
+      analysis::wall_contours(run_.walls()[*worn_wall_], run_.setup().output.contours);
   const std::size_t every = std::max<std::size_t>(1, contours.size() / kProfiles);
   for (std::size_t i = 0; i < contours.size(); ++i)
     if (i % every != 0) contours[i].profile.clear();

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <csignal>
+
+namespace abradem::cli {
+
+/// Ctrl-C, a polite kill and a closed terminal end the work at the next look, with everything written; a
+/// second one ends it at once. A reader that goes away (`… | head`) does not. One at a time.
+class StopSignals {
+ public:
+  StopSignals();
+  ~StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+  /// Has someone asked to stop since the signals were taken over?
+  [[nodiscard]] static bool requested() noexcept;
+
+ private:
+  struct sigaction interrupt_ {
+  }, terminate_{}, hang_up_{}, pipe_{};
+};
+
+}  // namespace abradem::cli
