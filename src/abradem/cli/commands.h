@@ -13,7 +13,7 @@ struct RunArguments {
   std::string output;  ///< folder; empty: out/<name of the case>
   std::vector<std::string> overrides;
   int threads = 0;  ///< 0: as many as the machine has
-  bool force = false, quiet = false, dry_run = false, json = false;
+  bool force = false, quiet = false, dry_run = false, json = false, no_report = false;
 };
 int run_command(const RunArguments& arguments);
 

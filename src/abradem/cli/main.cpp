@@ -51,6 +51,7 @@ void declare(CLI::App& app, Arguments& a) {
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   run->add_flag("--quiet", a.run.quiet, "No progress, only warnings and errors");
+  run->add_flag("--no-report", a.run.no_report, "Leave out report.html; 'abradem report DIR' makes it later");
   CLI::Option* dry =
       run->add_flag("--dry-run", a.run.dry_run, "Print the resolved case to stdout and write nothing");
   run->add_flag("--json", a.run.json, "Print run.json to stdout at the end")->excludes(dry);

@@ -21,14 +21,6 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-/// "1:02:03" or "4:05".
-std::string clock_time(double seconds) {
-  if (!std::isfinite(seconds) || seconds > 3.6e6) return "a long time";
-  const auto s = static_cast<long>(std::lround(seconds));
-  return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)
-                   : fmt::format("{}:{:02}", s / 60, s % 60);
-}
-
 /// A count with its thousands set apart: 1,250,000.
 std::string grouped(double count) {
   const std::string digits = fmt::format("{:.0f}", count);
@@ -42,6 +34,13 @@ std::string grouped(double count) {
 
 }  // namespace
 
+std::string clock_time(double seconds) {
+  if (!std::isfinite(seconds) || seconds > 3.6e6) return "a long time";
+  const auto s = static_cast<long>(std::lround(seconds));
+  return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)
+                   : fmt::format("{}:{:02}", s / 60, s % 60);
+}
+
 RunLog::RunLog(const std::filesystem::path& path, bool quiet)
     : file_(std::fopen(path.c_str(), "w")), quiet_(quiet), terminal_(!quiet && isatty(STDERR_FILENO) != 0) {
   if (file_ == nullptr)
@@ -50,14 +49,14 @@ RunLog::RunLog(const std::filesystem::path& path, bool quiet)
 
 RunLog::~RunLog() { std::fclose(file_); }
 
-void RunLog::write(std::string_view text) {
+void RunLog::record(std::string_view text) {
   // A log that the disk has no room for must not end the run; the results, written later, say so.
   std::fputs(fmt::format("{:10.3f} s  {}\n", seconds_between(start_, Clock::now()), text).c_str(), file_);
   std::fflush(file_);
 }
 
 void RunLog::line(std::string_view text) {
-  write(text);
+  record(text);
   if (quiet_) return;
   clear_status();
   print_message(text);
@@ -67,7 +66,7 @@ void RunLog::warning(std::string_view text) { always(fmt::format("warning: {}", 
 void RunLog::error(std::string_view text) { always(fmt::format("abradem: error: {}", text)); }
 
 void RunLog::always(std::string_view text) {
-  write(text);
+  record(text);
   clear_status();
   print_message(text);
 }
@@ -111,7 +110,7 @@ void Progress::output(const simulation::Simulation& run, const io::RunRecorder& 
   log_.line(fmt::format("{}{}  normal force {:.4g} N", state(run), depth, row.force_mean));
 }
 
-void summarise(const io::RunRecord& record, const std::filesystem::path& folder, RunLog& log) {
+void summarise(const io::RunRecord& record, RunLog& log) {
   const simulation::Ledger& l = record.ledger;
   if (!record.error.empty()) log.error(record.error);
   log.line(fmt::format("{} after {} steps in {:.2f} s ({} steps/s)", record.status, record.steps,
@@ -121,7 +120,6 @@ void summarise(const io::RunRecord& record, const std::filesystem::path& folder,
       fmt::format("ledger: law {:.9g} mm^3, deposited {:.9g}, swept {:.9g}; residual {:.2g}, kappa {:.6g}",
                   1e9 * l.law, 1e9 * l.deposited, 1e9 * l.swept, l.residual, l.kappa));
   log.line(fmt::format("state {:016x}", record.state_hash));
-  log.line(fmt::format("report: {}", (folder / "report.html").string()));
 }
 
 }  // namespace abradem::cli

@@ -13,6 +13,9 @@
 
 namespace abradem::cli {
 
+/// A time as a person reads it off a clock: "1:02:03" or "4:05".
+[[nodiscard]] std::string clock_time(double seconds);
+
 /// Lines of a run: into run.log with the time since the start, and onto stderr unless quiet. Warnings and
 /// errors always reach stderr.
 class RunLog {
@@ -24,6 +27,8 @@ class RunLog {
   RunLog& operator=(const RunLog&) = delete;
 
   void line(std::string_view text);
+  /// Into the file alone.
+  void record(std::string_view text);
   void warning(std::string_view text);
   void error(std::string_view text);
   [[nodiscard]] bool quiet() const noexcept { return quiet_; }
@@ -35,7 +40,6 @@ class RunLog {
 
  private:
   void always(std::string_view text);
-  void write(std::string_view text);
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::FILE* file_ = nullptr;
   bool quiet_, terminal_, status_shown_ = false;
@@ -57,6 +61,6 @@ class Progress {
 };
 
 /// The end of a run in a few lines.
-void summarise(const io::RunRecord& record, const std::filesystem::path& folder, RunLog& log);
+void summarise(const io::RunRecord& record, RunLog& log);
 
 }  // namespace abradem::cli

@@ -28,6 +28,7 @@ int run_command(const RunArguments& arguments) {
   options.force = arguments.force;
   options.quiet = arguments.quiet;
   options.json = arguments.json;
+  options.report = !arguments.no_report;
   options.threads = arguments.threads;
   if (!arguments.dry_run) return run_case(options);
 

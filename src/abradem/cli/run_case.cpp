@@ -148,6 +148,7 @@ int run_case(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   if (options.threads > 0) omp_set_num_threads(options.threads);
   // Everything that can be refused is refused before the folder exists.
+  const std::uint64_t inputs_hash = io::inputs_hash(options.setup);
   Simulation run(options.setup, MeshLoader(options.setup));
   io::refuse_misplaced_particles(run);
 
@@ -161,6 +162,7 @@ int run_case(const RunOptions& options) {
 
   io::RunRecord record;
   record.threads = omp_get_max_threads();
+  record.inputs_hash = inputs_hash;
   report_limits(run.limits(), log, nullptr);
   io::RunRecorder recorder(run, options.output);
   folder.keep();
@@ -172,13 +174,14 @@ int run_case(const RunOptions& options) {
     record.wall_seconds = seconds_since(start);
     json = io::to_json(record, options.setup);
     io::write_file_atomically(options.output / "run.json", json);
-    report::write_report(options.output);
+    if (options.report) report::write_report(options.output);
   } catch (const IoError& error) {
     try_to_record_failure(record, options, run, error);
     throw;
   }
 
-  summarise(record, options.output, log);
+  summarise(record, log);
+  if (options.report) log.line(fmt::format("report: {}", (options.output / "report.html").string()));
   if (options.json) print_result(json);
   return record.exit_code;
 }

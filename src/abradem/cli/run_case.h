@@ -18,6 +18,7 @@ struct RunOptions {
   bool force = false;               ///< an earlier run in that folder may be replaced
   bool quiet = false;               ///< no progress, only warnings and errors
   bool json = false;                ///< run.json to stdout at the end
+  bool report = true;               ///< make report.html at the end
   int threads = 0;                  ///< 0: as many as the machine has
 };
 

@@ -3,10 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "abradem/core/hash.h"
 #include "abradem/core/version.h"
+#include "abradem/io/case_file.h"
 #include "abradem/io/wear_tables.h"
 
 namespace abradem::io {
@@ -47,7 +53,33 @@ Json measurement_json(const simulation::MeasurementSetup& m) {
   return json;
 }
 
+void add_bytes(core::StateHash& hash, std::string_view bytes) {
+  for (std::size_t at = 0; at < bytes.size(); at += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, std::min(sizeof word, bytes.size() - at));
+    hash.add(word);
+  }
+  hash.add(static_cast<std::uint64_t>(bytes.size()));
+}
+
+void add_file(core::StateHash& hash, const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 1 << 16> block;
+  do {
+    file.read(block.data(), block.size());
+    add_bytes(hash, {block.data(), static_cast<std::size_t>(file.gcount())});
+  } while (file);
+}
+
 }  // namespace
+
+std::uint64_t inputs_hash(const simulation::Setup& setup) {
+  core::StateHash hash;
+  add_bytes(hash, resolved_case(setup));
+  for (const simulation::WallSetup& wall : setup.walls)
+    if (wall.mesh.shape == simulation::MeshShape::file) add_file(hash, wall.mesh.file);
+  return hash.value();
+}
 
 std::string counted(const simulation::Setup& setup) {
   for (const simulation::WallSetup& wall : setup.walls) {
@@ -74,6 +106,7 @@ std::string to_json(const RunRecord& record, const simulation::Setup& setup) {
   json["steps_per_second"] = number(
       record.stepping_seconds > 0.0 ? static_cast<double>(record.steps) / record.stepping_seconds : 0.0);
   json["state_hash"] = fmt::format("{:016x}", record.state_hash);
+  json["inputs_hash"] = fmt::format("{:016x}", record.inputs_hash);
   json["ledger"] = ledger_json(record.ledger);
   json["results"] = results_json(record);
   Json limits = Json::array();

@@ -22,6 +22,7 @@ struct RunRecord {
   double stepping_seconds = 0.0;  ///< of the steps alone
   std::uint64_t steps = 0;
   std::uint64_t state_hash = 0;
+  std::uint64_t inputs_hash = 0;  ///< inputs_hash() of the setup
   simulation::Ledger ledger;
   std::optional<analysis::RevolutionRow> last;
   std::vector<simulation::StabilityLimit> limits;
@@ -31,6 +32,10 @@ struct RunRecord {
 /// What the tables' column `revolution` counts: "revolution" or "cycle" of the first wall that turns or
 /// oscillates, "output" where none does.
 [[nodiscard]] std::string counted(const simulation::Setup& setup);
+
+/// Hash of all that decides about a run's results but the program itself: every key of the resolved case and
+/// the bytes of the mesh files it names. A file that cannot be read counts as empty.
+[[nodiscard]] std::uint64_t inputs_hash(const simulation::Setup& setup);
 
 /// The record as JSON text.
 [[nodiscard]] std::string to_json(const RunRecord& record, const simulation::Setup& setup);

@@ -88,6 +88,8 @@ Measurement read_measurement(const Place& place) {
 void read_optional(const Place& place, Manifest& out) {
   const ordered_json& json = place.object;
   if (json.contains("counted")) out.counted = place.text("counted");
+  if (json.contains("inputs_hash")) out.inputs_hash = place.text("inputs_hash");
+  if (json.contains("error")) out.error = place.text("error");
   if (json.contains("case_title")) out.case_title = place.text("case_title");
   if (json.contains("limits") && json["limits"].is_array()) {
     for (const ordered_json& limit : json["limits"]) {

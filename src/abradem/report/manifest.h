@@ -48,6 +48,8 @@ struct Manifest {
   LedgerSummary ledger;
   std::vector<std::pair<std::string, double>> results;  ///< last row of revolutions.csv; NaN where null
 
+  std::string inputs_hash;  ///< empty in records that have none
+  std::string error;        ///< of a failed run
   std::string case_title;
   std::string counted = "revolution";  ///< by the column `revolution`: revolution, cycle or output
   std::vector<LimitCheck> limits;
