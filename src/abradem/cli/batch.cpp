@@ -226,11 +226,11 @@ void Batch::start_next() {
   waiting_.pop_front();
   std::error_code ignored;
   fs::remove(folder_of(j) / "run.json", ignored);  // what is found there afterwards is new
-  std::vector<std::string> arguments{"run",        options_.case_path.string(),
-                                     "-o",         folder_of(j).string(),
-                                     "--threads",  "1",
-                                     "--force",    "--quiet",
-                                     "--no-report"};
+  std::vector<std::string> arguments{"run",         options_.case_path.string(),
+                                     "-o",          folder_of(j).string(),
+                                     "--threads",   "1",
+                                     "--force",     "--quiet",
+                                     "--no-report", "--no-study"};
   arguments.insert(arguments.end(), options_.run_options.begin(), options_.run_options.end());
   for (const std::string& assignment : jobs_[j].job.overrides) {
     arguments.emplace_back("--set");
@@ -430,7 +430,7 @@ std::vector<PreparedJob> prepare_jobs(const fs::path& case_path, std::span<const
   for (const Job& job : jobs) {
     if (!names.insert(job.name).second) throw InputError(fmt::format("two runs are called '{}'", job.name));
     try {
-      io::Case read = io::load_case(case_path, job.overrides);
+      io::Case read = io::load_single_run(case_path, job.overrides);
       const std::uint64_t hash = io::inputs_hash(read.setup);
       prepared.push_back({job, std::move(read.setup), hash});
     } catch (const io::CaseError& error) {

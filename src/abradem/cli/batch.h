@@ -66,17 +66,17 @@ struct BatchResult {
   [[nodiscard]] std::size_t count(JobStatus status) const noexcept;
 };
 
-/// Reads the case once per job.
+/// Reads the case once per job, without its [study].
 /// @throws InputError with all that is wrong with any of them, each problem once with the names of its jobs;
 ///         or when two jobs have one name
 [[nodiscard]] std::vector<PreparedJob> prepare_jobs(const std::filesystem::path& case_path,
                                                     std::span<const Job> jobs);
 
-/// Runs every job that is not settled, as a process `abradem run … --threads 1 --no-report --quiet`. A job is
-/// settled when its folder holds a completed run, or one that went unphysical, of the same inputs by the same
-/// program (version and commit); jobs with equal inputs are run once. A failed job does not stop the others.
-/// batch.json says how things stand and is never half-written; after Ctrl-C, a kill or a full disk the same
-/// call goes on where it stopped.
+/// Runs every job that is not settled, as a process `abradem run … --threads 1 --no-study --no-report
+/// --quiet`. A job is settled when its folder holds a completed run, or one that went unphysical, of the same
+/// inputs by the same program (version and commit); jobs with equal inputs are run once. A failed job does
+/// not stop the others. batch.json says how things stand and is never half-written; after Ctrl-C, a kill or a
+/// full disk the same call goes on where it stopped.
 /// @throws InputError when the folder holds something else, or runs of other inputs and `force` is not given;
 ///         or while another process works on it. Nothing has been touched then.
 /// @throws IoError when something cannot be written (a full disk): no further job is started

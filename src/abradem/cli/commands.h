@@ -13,7 +13,9 @@ struct RunArguments {
   std::string output;  ///< folder; empty: out/<name of the case>
   std::vector<std::string> overrides;
   int threads = 0;  ///< 0: as many as the machine has
-  bool force = false, quiet = false, dry_run = false, json = false, no_report = false;
+  bool force = false, quiet = false, dry_run = false, json = false;
+  bool no_report = false;  ///< leave out report.html
+  bool no_study = false;   ///< run the case alone, as if it had no [study]
 };
 int run_command(const RunArguments& arguments);
 

@@ -52,6 +52,7 @@ void declare(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(1, 1024));
   run->add_flag("--quiet", a.run.quiet, "No progress, only warnings and errors");
   run->add_flag("--no-report", a.run.no_report, "Leave out report.html; 'abradem report DIR' makes it later");
+  run->add_flag("--no-study", a.run.no_study, "Run the case alone, as if it had no [study]");
   CLI::Option* dry =
       run->add_flag("--dry-run", a.run.dry_run, "Print the resolved case to stdout and write nothing");
   run->add_flag("--json", a.run.json, "Print run.json to stdout at the end")->excludes(dry);

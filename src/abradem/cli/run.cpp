@@ -14,7 +14,8 @@ namespace abradem::cli {
 
 int run_command(const RunArguments& arguments) {
   namespace fs = std::filesystem;
-  io::Case read = io::load_case(arguments.case_path, arguments.overrides);
+  io::Case read = arguments.no_study ? io::load_single_run(arguments.case_path, arguments.overrides)
+                                     : io::load_case(arguments.case_path, arguments.overrides);
   if (!arguments.quiet)
     for (const std::string& note : read.notes) print_message(note);
 

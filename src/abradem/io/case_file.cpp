@@ -268,10 +268,14 @@ simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems&
   return setup;
 }
 
-}  // namespace
+enum class Study { read, leave_out };
 
-Case parse_case(std::string_view text, const std::string& name, const fs::path& folder,
-                std::span<const std::string> overrides) {
+void leave_out_study(Value& tree) {
+  std::erase_if(tree.entries, [](const Entry& e) { return e.key == "study"; });
+}
+
+Case parse(std::string_view text, const std::string& name, const fs::path& folder,
+           std::span<const std::string> overrides, Study study) {
   refuse_what_is_no_text(text, name);
   Problems problems(name, std::string(text));
   Value tree = parse_toml(text, problems);
@@ -282,6 +286,7 @@ Case parse_case(std::string_view text, const std::string& name, const fs::path& 
     changes.push_back(parse_override(assignment, problems));
     lay_over(tree, changes.back(), problems);
   }
+  if (study == Study::leave_out) leave_out_study(tree);
 
   Case result;
   result.text = text;
@@ -292,6 +297,17 @@ Case parse_case(std::string_view text, const std::string& name, const fs::path& 
   problems.throw_if_any();
   result.notes = problems.notes();
   return result;
+}
+
+}  // namespace
+
+Case parse_case(std::string_view text, const std::string& name, const fs::path& folder,
+                std::span<const std::string> overrides) {
+  return parse(text, name, folder, overrides, Study::read);
+}
+
+Case load_single_run(const fs::path& path, std::span<const std::string> overrides) {
+  return parse(read_text(path), path.string(), path.parent_path(), overrides, Study::leave_out);
 }
 
 Case load_case(const fs::path& path, std::span<const std::string> overrides) {

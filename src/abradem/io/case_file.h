@@ -23,6 +23,10 @@ struct Case {
 /// @throws InputError when there is no such file or it is not text
 [[nodiscard]] Case load_case(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 
+/// As load_case(), of the case without its [study], as one run: the study is neither read nor checked.
+[[nodiscard]] Case load_single_run(const std::filesystem::path& path,
+                                   std::span<const std::string> overrides = {});
+
 /// As load_case(), when only the setup matters.
 [[nodiscard]] simulation::Setup read_case(const std::filesystem::path& path,
                                           std::span<const std::string> overrides = {});

@@ -139,8 +139,9 @@ study::Factor make_factor(std::string_view key, std::span<const std::string> val
     } else if (values.size() == 1) {
       factor.range = range;
     } else {
-      throw InputError(fmt::format("{}: '{}' stands among other values; say how many it stands for, as in {}:5",
-                                   factor.key, value, value));
+      throw InputError(
+          fmt::format("{}: '{}' stands among other values; say how many it stands for, as in {}:5",
+                      factor.key, value, value));
     }
   }
   return factor;
@@ -150,8 +151,8 @@ study::Factor parse_factor(std::string_view text) {
   const std::vector<std::string_view> sides = split(text, '=', 2);
   const auto refuse = [&](const char* why) {
     throw InputError(fmt::format(
-        "'{}' {}; expected KEY=VALUE,VALUE,… or KEY=LOW..HIGH, such as wall.disc.mesh.size=0.1 mm,0.2 mm", text,
-        why));
+        "'{}' {}; expected KEY=VALUE,VALUE,… or KEY=LOW..HIGH, such as wall.disc.mesh.size=0.1 mm,0.2 mm",
+        text, why));
   };
   if (sides.size() < 2) refuse("names no values");
   if (trimmed(sides[0]).empty()) refuse("names no key");

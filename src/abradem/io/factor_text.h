@@ -20,8 +20,8 @@ struct NumberText {
 [[nodiscard]] std::optional<NumberText> read_number_text(std::string_view text);
 
 /// Reads `KEY=a,b,c` or `KEY=low..high`. Values are separated by commas outside quotes and brackets. A range
-/// may end with `:N`, which takes N values evenly spread over it, and with `:log`; its unit may be given once,
-/// at its end. Keys that are whole numbers in the case get whole numbers.
+/// may end with `:N`, which takes N values evenly spread over it, and with `:log`; its unit may be given
+/// once, at its end. Keys that are whole numbers in the case get whole numbers.
 /// @throws InputError with the text and what was expected
 [[nodiscard]] study::Factor parse_factor(std::string_view text);
 /// The same from a key and its values, one of which may be a range.

@@ -82,11 +82,18 @@ std::map<std::string, double> results_of(const std::filesystem::path& folder) {
   }
 }
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+void add_field(std::string& line, const std::string& text) {
+  line += ',';
+  if (text.find_first_of(",\"\n\r") == std::string::npos) {
+    line += text;
+    return;
+  }
+  line += '"';
+  for (const char c : text) {
+    if (c == '"') line += '"';
+    line += c;
+  }
+  line += '"';
 }
 
 }  // namespace
@@ -119,11 +126,11 @@ std::string to_csv(const SweepTable& table) {
   for (const SweepColumn& c : table.factors) columns.push_back(&c);
   for (const SweepColumn& c : table.results) columns.push_back(&c);
   std::string text = "name,status";
-  for (const SweepColumn* c : columns) text += "," + csv_field(c->title);
+  for (const SweepColumn* c : columns) add_field(text, c->title);
   text += '\n';
   for (std::size_t r = 0; r < table.names.size(); ++r) {
-    text += fmt::format("{},{}", csv_field(table.names[r]), table.status[r]);
-    for (const SweepColumn* c : columns) text += "," + csv_field(c->text[r]);
+    text += fmt::format("{},{}", table.names[r], table.status[r]);
+    for (const SweepColumn* c : columns) add_field(text, c->text[r]);
     text += '\n';
   }
   return text;

@@ -19,10 +19,10 @@ struct SweepRun {
 
 /// A column of text, and of numbers where every field is one.
 struct SweepColumn {
-  std::string title;               ///< with the unit: "wall.disc.mesh.size [mm]", "depth_mean_mm"
-  std::vector<std::string> text;   ///< one field per run
-  std::vector<double> number;      ///< the same as numbers; empty for words and vectors; NaN: none
-  bool logarithmic = false;        ///< a factor that spans more than a decade in even ratios
+  std::string title;              ///< with the unit: "wall.disc.mesh.size [mm]", "depth_mean_mm"
+  std::vector<std::string> text;  ///< one field per run
+  std::vector<double> number;     ///< the same as numbers; empty for words and vectors; NaN: none
+  bool logarithmic = false;       ///< a factor that spans more than a decade in even ratios
 };
 
 struct SweepTable {
