@@ -33,7 +33,7 @@ const survey = `[...document.querySelectorAll('figure')].map((f) => ({
 async function open(width, dark) {
   await browser.resize(width, 900, dark);
   await browser.send('Page.navigate', { url: address });
-  await browser.until('document.documentElement?.dataset.ready', 120);
+  await browser.until('document.documentElement?.dataset.complete || document.documentElement?.dataset.ready === "failed"', 120);
   const view = `${width} px${dark ? ', dark' : ''}`;
   check(await browser.evaluate('document.documentElement.dataset.ready') === 'yes', `${view}: ${await browser.evaluate('document.getElementById("trouble").textContent')}`);
   const wide = await browser.evaluate('document.documentElement.scrollWidth');

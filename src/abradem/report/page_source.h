@@ -3,10 +3,13 @@
 
 #include <string_view>
 
-/// The page's sources (folder report/), embedded when the library is built (cmake/embed_report.cmake).
+/// The pages' sources (folder report/), embedded when the library is built (cmake/embed_report.cmake).
 namespace abradem::report {
-[[nodiscard]] std::string_view page_template() noexcept;     ///< HTML with {{name}} places
-[[nodiscard]] std::string_view page_style() noexcept;        ///< CSS
-[[nodiscard]] std::string_view page_script() noexcept;       ///< what draws the figures
-[[nodiscard]] std::string_view page_charts_gzip() noexcept;  ///< the chart library (plotly.js), gzip
+[[nodiscard]] std::string_view page_shell() noexcept;          ///< HTML of every page, with {{name}} places
+[[nodiscard]] std::string_view run_body() noexcept;            ///< what the shell holds in a run's report
+[[nodiscard]] std::string_view page_style() noexcept;          ///< CSS of every page
+[[nodiscard]] std::string_view chart_tools_script() noexcept;  ///< what every page's figures are drawn with
+[[nodiscard]] std::string_view run_script() noexcept;          ///< the figures of a run's report
+[[nodiscard]] std::string_view figures_script() noexcept;      ///< the figures of page.h
+[[nodiscard]] std::string_view page_charts_gzip() noexcept;    ///< the chart library (plotly.js), gzip
 }  // namespace abradem::report

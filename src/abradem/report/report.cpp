@@ -5,14 +5,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <functional>
 #include <limits>
-#include <map>
 #include <string_view>
 #include <vector>
 
-#include "abradem/core/error.h"
+#include "abradem/io/atomic_file.h"
+#include "abradem/report/page_parts.h"
 #include "abradem/report/page_source.h"
 #include "abradem/report/sections.h"
 #include "abradem/report/text.h"
@@ -49,22 +47,19 @@ std::string pack(const std::vector<Number>& values, double step) {
   return bytes;
 }
 
-std::string block(std::string_view name, std::string_view bytes) {
-  return fmt::format("<script type=\"application/octet-stream\" id=\"data-{}\">{}</script>\n", name,
-                     base64(deflate(bytes)));
-}
-
 /// The surface's arrays and, for the page's script, the steps they are multiples of.
 std::string surface_blocks(const WornSurface& surface) {
   const SurfaceView& view = surface.view;
   std::string out;
-  out += block("x", pack(view.x_mm, kPositionStep_mm)) + block("y", pack(view.y_mm, kPositionStep_mm));
-  out += block("z", pack(view.z_mm, kPositionStep_mm));
-  out += block("nx", pack(view.nx, kNormalStep)) + block("ny", pack(view.ny, kNormalStep));
-  out += block("nz", pack(view.nz, kNormalStep));
-  out += block("depth", pack(view.depth_um, kDepthStep_um));
-  out += block("i", pack(view.i, 1.0)) + block("j", pack(view.j, 1.0)) + block("k", pack(view.k, 1.0));
-  return out + block("map", pack(surface.map.depth_um, kDepthStep_um));
+  out +=
+      data_block("x", pack(view.x_mm, kPositionStep_mm)) + data_block("y", pack(view.y_mm, kPositionStep_mm));
+  out += data_block("z", pack(view.z_mm, kPositionStep_mm));
+  out += data_block("nx", pack(view.nx, kNormalStep)) + data_block("ny", pack(view.ny, kNormalStep));
+  out += data_block("nz", pack(view.nz, kNormalStep));
+  out += data_block("depth", pack(view.depth_um, kDepthStep_um));
+  out += data_block("i", pack(view.i, 1.0)) + data_block("j", pack(view.j, 1.0)) +
+         data_block("k", pack(view.k, 1.0));
+  return out + data_block("map", pack(surface.map.depth_um, kDepthStep_um));
 }
 
 std::string surface_json(const RunFolder& run) {
@@ -104,69 +99,32 @@ std::string data_blocks(const RunFolder& run) {
   const Table profiles = thin_revolutions(run.profiles, kMaxProfileRows);
   const Table force = thin_rows(run.force, kMaxForceRows);
   std::string out =
-      block("facts", facts_json(run, contours.rows() < run.contours.rows(),
-                                profiles.rows() < run.profiles.rows(), force.rows() < run.force.rows()));
-  out += block("revolutions", to_csv(run.revolutions)) + block("contours", to_csv(contours));
-  out += block("profiles", to_csv(profiles)) + block("force", to_csv(force));
+      data_block("facts", facts_json(run, contours.rows() < run.contours.rows(),
+                                     profiles.rows() < run.profiles.rows(), force.rows() < run.force.rows()));
+  out += data_block("revolutions", to_csv(run.revolutions)) + data_block("contours", to_csv(contours));
+  out += data_block("profiles", to_csv(profiles)) + data_block("force", to_csv(force));
   if (run.surface) out += surface_blocks(*run.surface);
   return out;
-}
-
-/// Fills the {{name}} places of the template in one pass, so that text of the case is never taken for a
-/// place.
-std::string fill(std::string_view page, const std::map<std::string, std::string, std::less<>>& places) {
-  std::string out;
-  while (true) {
-    const std::size_t open = page.find("{{");
-    const std::size_t close = open == std::string_view::npos ? open : page.find("}}", open);
-    if (close == std::string_view::npos) return out.append(page);
-    out.append(page.substr(0, open));
-    const std::string_view name = page.substr(open + 2, close - open - 2);
-    const auto place = places.find(name);
-    if (place == places.end())
-      throw Error(ExitCode::internal, fmt::format("report template names '{}', which nothing fills", name));
-    out += place->second;
-    page.remove_prefix(close + 2);
-  }
-}
-
-/// A file that appears whole or not at all; a temporary of a failed write is removed.
-void write_whole(const std::filesystem::path& file, const std::string& content) {
-  std::filesystem::path temporary = file;
-  temporary += ".part";
-  std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-  stream << content;
-  stream.close();
-  std::error_code code;
-  if (stream) std::filesystem::rename(temporary, file, code);
-  if (!stream || code) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw IoError(
-        fmt::format("{}: cannot be written ({:.1f} MB); check the folder's permissions and the free space",
-                    file.string(), static_cast<double>(content.size()) / 1e6));
-  }
 }
 
 }  // namespace
 
 std::string make_page(const RunFolder& run) {
-  return fill(page_template(), {{"title", escape_html(page_title(run))},
-                                {"style", std::string(page_style())},
-                                {"verdict", escape_html(verdict(run))},
-                                {"cards", verdict_cards(run)},
-                                {"ledger", ledger_table(run)},
-                                {"limits", limits_and_warnings(run)},
-                                {"inputs", inputs(run)},
-                                {"record", record_table(run)},
-                                {"data", data_blocks(run)},
-                                {"charts", base64(page_charts_gzip())},
-                                {"script", std::string(page_script())}});
+  return shell({.kicker = "Abradem wear report",
+                .title = page_title(run),
+                .lead = verdict(run),
+                .body = fill(run_body(), {{"cards", verdict_cards(run)},
+                                          {"ledger", ledger_table(run)},
+                                          {"limits", limits_and_warnings(run)},
+                                          {"inputs", inputs(run)},
+                                          {"record", record_table(run)}}),
+                .data = data_blocks(run),
+                .script = run_script()});
 }
 
 std::filesystem::path write_report(const std::filesystem::path& run_folder) {
   std::filesystem::path page = run_folder / "report.html";
-  write_whole(page, make_page(read_run_folder(run_folder)));
+  io::write_file_atomically(page, make_page(read_run_folder(run_folder)));
   return page;
 }
 

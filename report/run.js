@@ -1,137 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws the report's figures from the data blocks of the page. No network, no storage.
+// The figures of a run's report, drawn from the data blocks of the page.
 'use strict';
 (() => {
-const $ = (selector, root = document) => root.querySelector(selector);
-let printWidth = 0;  // while printing: the width of a figure on paper [px]
-const narrow = () => !printWidth && window.innerWidth < 620;
-
-// ---------------------------------------------------------------- data blocks
-async function inflate(id, format = 'deflate') {
-  const bytes = Uint8Array.from(atob(document.getElementById(id).textContent), (c) => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format));
-  return new Response(stream).arrayBuffer();
-}
-const inflateText = async (id, format) => new TextDecoder().decode(await inflate(id, format));
-
-// Undoes pack() of report.cpp: bytes sorted by significance, differences, a step.
-async function inflateNumbers(name, step) {
-  const bytes = new Uint8Array(await inflate('data-' + name));
-  const n = bytes.length / 4, out = step === 1 ? new Int32Array(n) : new Float32Array(n);
-  let value = 0;
-  for (let k = 0; k < n; ++k) {
-    value = (value + (bytes[k] | bytes[n + k] << 8 | bytes[2 * n + k] << 16 | bytes[3 * n + k] << 24)) | 0;
-    out[k] = value === -2147483648 ? NaN : value * step;
-  }
-  return out;
-}
-
-async function table(name) {
-  const text = await inflateText('data-' + name);
-  const lines = text.trimEnd().split('\n'), names = lines[0].split(',');
-  const columns = Object.fromEntries(names.map((column) => [column, new Float64Array(lines.length - 1)]));
-  for (let row = 1; row < lines.length; ++row) {
-    const fields = lines[row].split(',');
-    names.forEach((column, c) => { columns[column][row - 1] = fields[c] === '' ? NaN : Number(fields[c]); });
-  }
-  return { ...columns, rows: lines.length - 1, csv: text };
-}
-
-// ---------------------------------------------------------------- small tools
-const times = (values, factor) => Array.from(values, (v) => v * factor);
-const unique = (values) => [...new Set(values)].sort((a, b) => a - b);
-const whereEqual = (values, wanted) => { const out = []; values.forEach((v, k) => { if (v === wanted) out.push(k); }); return out; };
-const finite = (values) => values.filter((v) => Number.isFinite(v));
-function largest(values) { let m = -Infinity; for (const v of values) if (v > m) m = v; return m; }
-function smallest(values) { let m = Infinity; for (const v of values) if (v < m) m = v; return m; }
-// Fixed notation with a number of significant digits.
-function digits(value, count = 3) {
-  if (!Number.isFinite(value)) return '–';
-  if (value === 0) return '0';
-  const size = Math.floor(Math.log10(Math.abs(value)));
-  return size < -4 || size > 5 ? value.toExponential(count - 1).replace(/e\+?(-?)(\d+)/, (_, s, e) => ' × 10' + (s ? '⁻' : '') + [...e].map((d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[d]).join(''))
-                               : value.toFixed(Math.max(0, count - 1 - size));
-}
-const kSteps = [1, 2, 5];
-// The largest of 1, 2, 5, 10, … not above a value.
-function roundDown(value) {
-  const power = 10 ** Math.floor(Math.log10(value));
-  return power * kSteps.filter((s) => s * power <= value * (1 + 1e-12)).at(-1);
-}
-
-const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-const kDepthScale = [[0, '#f3f0d8'], [.12, '#d7dd9a'], [.3, '#7fbf7b'], [.5, '#35958f'], [.7, '#2b6a8f'], [.86, '#343f84'], [1, '#35175c']];
-
-// ---------------------------------------------------------------- figures
-const figures = [];
-// A figure: draw() gives { traces, layout, caption } or { empty: 'why there is nothing' }.
-function figure(id, draw, file, csv) {
-  const root = document.getElementById(id);
-  const entry = { root, draw, file, csv, controls: {} };
-  for (const control of root.querySelectorAll('[data-control]')) {
-    entry.controls[control.dataset.control] = control;
-    control.addEventListener('change', () => { drawing = drawing.then(() => render(entry, control.dataset.control)); });
-  }
-  const link = $('a.csv', root);
-  link.setAttribute('download', file);
-  link.setAttribute('aria-label', 'Download the data of this figure as CSV');
-  link.addEventListener('click', () => {
-    const url = URL.createObjectURL(new Blob([csv()], { type: 'text/csv' }));
-    link.href = url;
-    setTimeout(() => URL.revokeObjectURL(url), 10000);
-  });
-  figures.push(entry);
-  return entry;
-}
-
-function axis(title, more = {}) {
-  return { title: { text: title, standoff: 8, font: { size: 13.5 } }, gridcolor: css('--grid'), zeroline: false, linecolor: css('--line'),
-           ticks: 'outside', tickcolor: css('--line'), ticklen: 4, automargin: true, ...more };
-}
-
-function baseLayout(more) {
-  return {
-    paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', autosize: !printWidth, ...(printWidth ? { width: printWidth } : {}),
-    font: { family: getComputedStyle(document.body).fontFamily, size: 13, color: css('--ink') },
-    margin: { l: 56, r: narrow() ? 12 : 20, t: 34, b: 48 }, dragmode: narrow() ? false : 'zoom', hovermode: 'closest',
-    hoverlabel: { bgcolor: css('--panel'), bordercolor: css('--line'), font: { color: css('--ink') } },
-    modebar: { bgcolor: 'rgba(0,0,0,0)', color: css('--muted'), activecolor: css('--ink') },
-    legend: { orientation: 'h', x: 0, y: 1.01, xanchor: 'left', yanchor: 'bottom', font: { size: 12.5 } },
-    ...more,
-  };
-}
-
-async function render(entry, changed) {
-  const plot = $('.plot', entry.root), result = entry.draw(entry.controls, changed);
-  $('.words', entry.root).textContent = result.caption ?? '';
-  $('a.csv', entry.root).hidden = Boolean(result.empty);
-  if (result.empty) {
-    const note = document.createElement('p');
-    note.className = 'empty';
-    note.textContent = result.empty;
-    plot.replaceChildren(note);
-    return;
-  }
-  // A colour bar cannot turn from upright to lying in place, so another shape of page means a new plot.
-  if (entry.narrow !== narrow()) Plotly.purge(plot);
-  entry.narrow = narrow();
-  await Plotly.react(plot, result.traces, baseLayout(result.layout), {
-    responsive: true, displaylogo: false, displayModeBar: narrow() ? false : 'hover',
-    modeBarButtons: [result.buttons ?? ['toImage', 'resetScale2d']],
-    toImageButtonOptions: { filename: entry.file.replace('.csv', ''), scale: 2 },
-  });
-}
-
-// One after the other: a change of theme or width may come while the figures are still being drawn.
-let drawing = Promise.resolve();
-const renderAll = () => (drawing = drawing.then(async () => { for (const entry of figures) await render(entry); }));
-
-// A measured range as a shaded band over [from, to].
-function bandTraces(from, to, low, high, name) {
-  const common = { x: [from, to], mode: 'lines', line: { width: 0 }, hoverinfo: 'skip', legendgroup: name };
-  return [{ ...common, y: [low, low], showlegend: false },
-          { ...common, y: [high, high], fill: 'tonexty', fillcolor: css('--band'), name }];
-}
+const { $, narrow, inflateText, inflateNumbers, table, times, unique, whereEqual, finite, largest, smallest, digits, roundDown, css, kDepthScale,
+        axis, sceneAxis, colourBar, figure, bandTraces } = Charts;
 
 // What the column `revolution` counts: 'revolution', 'cycle', or 'output' where nothing turns.
 let counted = 'revolution';
@@ -196,12 +68,10 @@ function surfaceFigure(data, facts, arrays) {
     const size = Math.max(xr[1] - xr[0], yr[1] - yr[0]), scale = view === 'whole' ? 1.55 : 1.5;
     const far = narrow() ? (view === 'whole' ? 1.75 : 1.95) : view === 'whole' ? 1.2 : 1;
     const ratio = (r) => scale * (r[1] - r[0]) / size;
-    const common = { gridcolor: css('--grid'), linecolor: css('--line'), zeroline: false, showbackground: false, tickfont: { size: 11.5 },
-                     showspikes: false, color: css('--muted'), nticks: 5, ticks: 'outside', ticklen: 4, tickcolor: css('--line') };
     const step = roundDown(facet.max_depth_um / (narrow() ? 1 : 1.9)), levels = [0];
     while (levels.length < 6 && levels.at(-1) + step <= facet.max_depth_um * 1.05) levels.push(levels.at(-1) + step);
-    const zAxis = flat ? { title: { text: 'height [µm]' }, tickvals: levels.map((d) => z0 - d * chosen / 1000),
-                           ticktext: levels.map((d) => d === 0 ? '0' : '−' + Number(d.toPrecision(3))) } : { title: { text: 'z [mm]' } };
+    const zAxis = flat ? { tickvals: levels.map((d) => z0 - d * chosen / 1000),
+                           ticktext: levels.map((d) => d === 0 ? '0' : '−' + Number(d.toPrecision(3))) } : {};
     return {
       traces: [{
         type: 'mesh3d', x: px, y: py, z: pz, i: s.i, j: s.j, k: s.k, intensity: s.depth, cmin: 0, cmax: facet.max_depth_um,
@@ -217,12 +87,12 @@ function surfaceFigure(data, facts, arrays) {
           uirevision: view, dragmode: 'orbit', aspectmode: 'manual', aspectratio: { x: ratio(xr), y: ratio(yr), z: ratio(zr) },
           camera: view === 'whole' ? { eye: { x: 0, y: -1.12 * far, z: 1.3 * far }, center: { x: 0, y: -.2, z: -.12 } }
                                    : { eye: { x: .6 * far, y: -1.0 * far, z: .85 * far }, center: { x: .03, y: 0, z: -.08 } },
-          xaxis: { ...common, title: { text: 'x [mm]' }, range: xr }, yaxis: { ...common, title: { text: 'y [mm]' }, range: yr, nticks: view === 'whole' ? 5 : 3 },
+          xaxis: sceneAxis('x [mm]', { range: xr }), yaxis: sceneAxis('y [mm]', { range: yr, nticks: view === 'whole' ? 5 : 3 }),
           // Seen whole, a flat track is too thin for a scale of its height; the colour bar has it.
-          zaxis: { ...common, ...zAxis, range: zr, visible: !(flat && view === 'whole') },
+          zaxis: sceneAxis(flat ? 'height [µm]' : 'z [mm]', { ...zAxis, range: zr, visible: !(flat && view === 'whole') }),
         },
       },
-      buttons: ['toImage', 'zoom3d', 'pan3d', 'orbitRotation', 'resetCameraDefault3d'],
+      buttons: ['zoom3d', 'pan3d', 'orbitRotation', 'resetCameraDefault3d'],
       caption: `The worn band of the wall: ${facet.triangles.toLocaleString('en').replaceAll(',', '\u202f')} of its ${facet.mesh_triangles.toLocaleString('en').replaceAll(',', '\u202f')} triangles`
              + `${facet.resampled ? ', resampled on a grid' : ''}. Deepest point ${digits(facet.max_depth_um)} µm; depth is drawn ${chosen} times too large. Drag to turn, ${narrow() ? 'pinch' : 'scroll'} to zoom.`,
     };
@@ -240,8 +110,7 @@ function surfaceFigure(data, facts, arrays) {
       type: 'heatmap', x: u, y: v, z: v.map((_, r) => map.subarray(r * m.u_count, (r + 1) * m.u_count)), zmin: 0, zmax: facet.max_depth_um,
       colorscale: kDepthScale, hoverongaps: false,
       hovertemplate: polar ? 'angle %{x:.1f}°<br>radius %{y:.3f} mm<br>depth %{z:.3f} µm<extra></extra>' : 'x %{x:.3f} mm<br>y %{y:.3f} mm<br>depth %{z:.3f} µm<extra></extra>',
-      colorbar: narrow() ? { orientation: 'h', y: -.28, yanchor: 'top', thickness: 12, len: 1, title: { text: 'depth [µm]', side: 'top' }, outlinewidth: 0, tickfont: { size: 11.5 } }
-                         : { thickness: 14, len: 1, title: { text: 'depth [µm]', side: 'right' }, outlinewidth: 0 },
+      colorbar: colourBar('depth [µm]'),
     }],
     layout: { margin: { l: 60, r: 10, t: 10, b: narrow() ? 110 : 48 },
               xaxis: axis(polar ? 'angle [°]' : 'x [mm]', { showgrid: false, ...(polar ? { tickvals: [0, 60, 120, 180, 240, 300, 360], range: [0, 360] } : {}) }),
@@ -375,8 +244,7 @@ function forceFigure({ force }, { thinned }) {
 }
 
 // ---------------------------------------------------------------- start
-async function start() {
-  if (typeof DecompressionStream === 'undefined') throw new Error('this browser is too old to unpack the figures (it needs DecompressionStream, 2023 or newer)');
+Charts.start(async () => {
   const facts = JSON.parse(await inflateText('data-facts'));
   counted = facts.counted;
   const data = {};
@@ -388,10 +256,6 @@ async function start() {
     for (const name of ['depth', 'map']) arrays[name] = await inflateNumbers(name, steps.depth_step);
     for (const name of ['i', 'j', 'k']) arrays[name] = await inflateNumbers(name, 1);
   }
-  const code = document.createElement('script');
-  code.textContent = await inflateText('charts', 'gzip') + '\nwindow.Plotly = Plotly;';
-  document.head.append(code);
-
   surfaceFigure(data, facts, arrays);
   volumeFigure(data, facts);
   profileFigure(data, facts);
@@ -401,21 +265,5 @@ async function start() {
   growthFigure('fig-width-growth', data, { mean: 'width_mean_mm', sd: 'width_sd_mm', factor: 1, unit: 'mm', noun: 'width', range: facts.measured.width_mm });
   boxFigure(data);
   forceFigure(data, facts);
-  await renderAll();
-
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', renderAll);
-  matchMedia('(max-width: 619px)').addEventListener('change', renderAll);
-  // Paper is white and about 700 px wide.
-  addEventListener('beforeprint', () => { document.documentElement.dataset.theme = 'light'; printWidth = 690; renderAll(); });
-  addEventListener('afterprint', () => { delete document.documentElement.dataset.theme; printWidth = 0; renderAll(); });
-  document.documentElement.dataset.ready = 'yes';
-}
-
-start().catch((error) => {
-  const box = $('#trouble');
-  box.hidden = false;
-  box.textContent = `The figures could not be drawn: ${error.message}.`;
-  document.documentElement.dataset.ready = 'failed';
-  console.error(error);
 });
 })();
