@@ -51,9 +51,10 @@ const std::vector<std::string> kRevolutionColumns{
 /// The columns that scripts rely on.
 const std::map<std::string, std::vector<std::string>> kTables{
     {"revolutions", kRevolutionColumns},
-    {"contours", {"revolution", "angle_deg", "depth_mm", "width_mm", "area_mm2"}},
+    {"contours", {"revolution", "angle_deg", "depth_mm", "width_mm", "area_mm2", "displaced_width_mm"}},
     {"profiles", {"revolution", "angle_deg", "radius_mm", "height_mm"}},
-    {"force", {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts"}}};
+    {"force", {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts",
+      "normal_along_N", "normal_across_N", "normal_sum_N"}}};
 
 io::CsvTable table(const fs::path& folder, const std::string& name) {
   return io::read_csv(folder / "tables" / (name + ".csv"));

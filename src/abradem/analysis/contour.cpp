@@ -292,6 +292,7 @@ std::vector<Contour> cut_contours(const TriangleMesh& mesh, std::span<const Vec3
 void measure(Contour& contour) noexcept {
   contour.depth = deepest_sink(contour.profile);
   contour.width = worn_width(contour.profile);
+  contour.displaced_width = displaced_width(contour.profile);
   contour.area = sunk_area(contour.profile);
 }
 

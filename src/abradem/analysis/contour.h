@@ -32,6 +32,7 @@ struct Contour {
   double width = 0.0;  ///< [m] worn_width() of the profile
   double area = 0.0;   ///< [m^2] sunk_area() of the profile
   std::vector<ProfilePoint> profile;  ///< by ascending radius, no point twice
+  double displaced_width = 0.0;       ///< [m] displaced_width() of the profile
 };
 
 /// A closed range of a coordinate [m].

@@ -47,7 +47,8 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder)
       folder_(std::move(folder)),
       tables_(made(folder_ / "tables")),
       force_(folder_ / "tables" / "force.csv",
-             {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts"}) {
+             {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts",
+              "normal_along_N", "normal_across_N", "normal_sum_N"}) {
   if (run.setup().output.frames != simulation::Frames::none) made(folder_ / "vtk");
   worn_wall_ = analysis::worn_wall(run.walls());
   for (std::size_t p = run.particles().size(); p-- > 0;)
@@ -62,9 +63,11 @@ void RunRecorder::observe(const Simulation& run) {
   if (run.particles().size() == 0) return;
   const simulation::ForceSample f = run.force_on(watched_particle_);
   normal_force_.add(f.normal);
-  if (run.steps() % force_stride_ == 0)
-    force_.row({f.time, revolution_of(run), f.normal, f.tangential, 1e6 * f.overlap,
-                static_cast<double>(run.elements_in_contact(watched_particle_))});
+  if (run.steps() % force_stride_ != 0) return;
+  const simulation::NormalParts parts = run.normal_parts_on(watched_particle_);
+  force_.row({f.time, revolution_of(run), f.normal, f.tangential, 1e6 * f.overlap,
+              static_cast<double>(run.elements_in_contact(watched_particle_)), parts.along, parts.across,
+              parts.sum});
 }
 
 std::vector<analysis::Contour> RunRecorder::cut_contours() const {

@@ -373,6 +373,20 @@ ForceSample Simulation::force_on(std::size_t p) const noexcept {
   return sample;
 }
 
+NormalParts Simulation::normal_parts_on(std::size_t p) const noexcept {
+  const Vec3& load = particles_.load[p];
+  const Vec3 axis = norm2(load) > 0.0 ? normalized(-load) : Vec3{0.0, 0.0, 1.0};
+  NormalParts total;
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    const NormalParts parts =
+        sphere_walls_[p * walls_.size() + w].normal_parts(walls_[w], poses_[w].turn_back(axis));
+    total.along += parts.along;
+    total.across += parts.across;
+    total.sum += parts.sum;
+  }
+  return total;
+}
+
 double Simulation::law_volume() const noexcept {
   double sum = 0.0;
   for (const double v : law_) sum += v;

@@ -95,6 +95,9 @@ class Simulation {
   [[nodiscard]] double law_volume() const noexcept;
   /// Forces of the last step on particle p.
   [[nodiscard]] ForceSample force_on(std::size_t p) const noexcept;
+  /// The normal force of the last step on particle p by the elements that carry it, along and across its
+  /// load (without one: the z axis), summed over the walls.
+  [[nodiscard]] NormalParts normal_parts_on(std::size_t p) const noexcept;
   /// Elements of all walls that particle p touches.
   [[nodiscard]] int elements_in_contact(std::size_t p) const;
   /// Called after every step; for statistics and series.

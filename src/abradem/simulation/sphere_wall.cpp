@@ -212,6 +212,41 @@ void SphereWall::book_elements(Wall& wall) {
   node_pending_.clear();
 }
 
+NormalParts SphereWall::normal_parts(const Wall& wall, const Vec3& axis) const noexcept {
+  NormalParts parts;
+  const auto add = [&](const Vec3& force) {
+    const double along = dot(force, axis);
+    parts.along += along;
+    parts.across += norm(force - along * axis);
+    parts.sum += norm(force);
+  };
+  Vec3 resultant;
+  for (const Touch& touch : touches_) resultant += touch.force.F_n * touch.n;
+  if (wall.is_plane() || wall.setup().contact != ContactRule::patch || touches_.empty()) {
+    for (const Touch& touch : touches_) add(touch.force.F_n * touch.n);
+    return parts;
+  }
+  // F = K sum_T G_T n_T over the nodes: each carries its overlap times its third of the area vectors around.
+  const std::span<const double> excess = patches_.node_excess();
+  Vec3 whole;
+  for (std::size_t i = 0; i < candidates_.node_count(); ++i) {
+    if (!(excess[i] > 0.0)) continue;
+    const Vec3 part = excess[i] * Vec3{candidates_.bx[i], candidates_.by[i], candidates_.bz[i]};
+    whole += part;
+    add(part);
+  }
+  if (!(norm2(whole) > 0.0)) {  // a patch smaller than a triangle holds no node
+    parts = {};
+    for (const Touch& touch : touches_) add(touch.force.F_n * touch.n);
+    return parts;
+  }
+  const double scale = norm(resultant) / norm(whole);
+  parts.along *= scale;
+  parts.across *= scale;
+  parts.sum *= scale;
+  return parts;
+}
+
 double SphereWall::pending_volume() const noexcept {
   double sum = 0.0;
   for (const double v : node_pending_) sum += v;

@@ -22,6 +22,14 @@ struct ForceAndTorque {
   Vec3 force, torque;
 };
 
+/// How the normal force stands on the elements that carry it: the sum of their parts F_i. The directions of
+/// the parts across the axis cancel in the resultant; their sizes do not.
+struct NormalParts {
+  double along = 0.0;   ///< sum of F_i . axis [N]
+  double across = 0.0;  ///< sum of |F_i - (F_i . axis) axis| [N]
+  double sum = 0.0;     ///< sum of |F_i| [N]
+};
+
 /// Everything between one sphere and one wall: what it touches, what each contact remembers, the force, and
 /// the wear it leaves. The step calls find, then compute, then deposit.
 class SphereWall {
@@ -73,6 +81,10 @@ class SphereWall {
   [[nodiscard]] const contact::MeshCandidates& candidates() const noexcept { return candidates_; }
   /// Elements in contact: under `patch` those with a corner in the ball, else the contacts.
   [[nodiscard]] int elements(const Wall& wall) const;
+
+  /// The normal force by elements: contact by contact, or under `patch` node by node, each with its overlap
+  /// and its part of the surface. @param axis unit vector in the wall's frame
+  [[nodiscard]] NormalParts normal_parts(const Wall& wall, const Vec3& axis) const noexcept;
 
   /// Hands the wear of elements that is still kept in the candidates' numbering to the surface.
   void book_elements(Wall& wall);
