@@ -6,6 +6,7 @@
 #include "abradem/cli/commands.h"
 #include "abradem/cli/print.h"
 #include "abradem/cli/run_case.h"
+#include "abradem/cli/study.h"
 #include "abradem/cli/summary.h"
 #include "abradem/core/error.h"
 #include "abradem/io/case_file.h"
@@ -18,6 +19,7 @@ int run_command(const RunArguments& arguments) {
                                      : io::load_case(arguments.case_path, arguments.overrides);
   if (!arguments.quiet)
     for (const std::string& note : read.notes) print_message(note);
+  if (read.setup.study) return run_study(arguments, read);
 
   RunOptions options;
   options.resolved_text = io::resolved_case(read.setup);
