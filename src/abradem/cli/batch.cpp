@@ -158,6 +158,7 @@ class Batch {
   void record_failure(std::size_t job, int exit_code, const std::string& message) const;
   void share_results();
   void write_manifest(std::string_view status) const;
+  [[nodiscard]] std::string_view end_status() const;
   void report_progress(bool at_once);
   [[nodiscard]] fs::path folder_of(std::size_t job) const {
     return options_.output / "runs" / jobs_[job].job.name;
@@ -188,6 +189,8 @@ Batch::Batch(const BatchOptions& options, std::span<const PreparedJob> jobs)
     throw InputError(
         fmt::format("output folder '{}' holds files that are not of a sweep; choose another with -o",
                     options.output.string()));
+  if (options.collect && !fs::exists(options.output / kManifest, error))
+    throw InputError(fmt::format("folder '{}' holds no runs to collect", options.output.string()));
   std::vector<std::string> others;
   for (std::size_t j = 0; j < jobs.size(); ++j) {
     Found found = look_at(jobs[j], folder_of(j), options.force);
@@ -341,9 +344,17 @@ void Batch::report_progress(bool at_once) {
     log_->line(text);
 }
 
+std::string_view Batch::end_status() const {
+  if (stopping_) return "interrupted";
+  if (!disk_trouble_.empty()) return "stopped";
+  if (result_.count(JobStatus::completed) == jobs_.size()) return "completed";
+  return result_.count(JobStatus::failed) > 0 ? "failed" : "incomplete";
+}
+
 BatchResult Batch::run() {
   if (options_.collect) {
     share_results();
+    write_manifest(end_status());
     return std::move(result_);
   }
   const StopSignals signals;
@@ -382,11 +393,7 @@ BatchResult Batch::run() {
   if (to_run_ > 0) report_progress(true);
   log_->clear_status();
   try {
-    if (!options_.only)
-      write_manifest(stopping_                              ? "interrupted"
-                     : !disk_trouble_.empty()               ? "stopped"
-                     : result_.count(JobStatus::failed) > 0 ? "failed"
-                                                            : "completed");
+    if (!options_.only) write_manifest(end_status());
   } catch (const IoError& error) {
     if (disk_trouble_.empty()) disk_trouble_ = error.what();
   }

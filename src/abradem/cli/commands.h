@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,23 @@ struct RunArguments {
   bool no_study = false;   ///< run the case alone, as if it had no [study]
 };
 int run_command(const RunArguments& arguments);
+
+struct SweepArguments {
+  std::string case_path;
+  std::string output;  ///< folder; empty: out/<name of the case>-sweep
+  std::vector<std::string> overrides;
+  std::vector<std::string> vary;  ///< KEY=VALUES
+  std::string design = "grid";    ///< grid, list, lhs or sobol
+  int samples = 0;                ///< of lhs and sobol
+  std::optional<std::uint64_t> seed;
+  int jobs = 0;               ///< runs at a time; 0: as many as the machine has cores
+  int only = 0;               ///< the one run to make, from 1; 0: all
+  std::string export_format;  ///< slurm or snakemake; empty: run it here
+  std::string export_path;    ///< file to write; empty: stdout
+  bool force = false, quiet = false, json = false, collect = false;
+};
+/// Runs a case with many values of some of its keys.
+int sweep_command(const SweepArguments& arguments);
 
 struct CheckArguments {
   std::string path;

@@ -21,6 +21,7 @@ using namespace abradem;
 /// What the command line said.
 struct Arguments {
   cli::RunArguments run;
+  cli::SweepArguments sweep;
   cli::CheckArguments check;
   cli::NewArguments create;
   std::string report_folder;
@@ -33,6 +34,52 @@ void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
                   "Override a key of the case, as in --set run.end=\"24 s\"; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void declare_sweep(CLI::App& app, cli::SweepArguments& a) {
+  CLI::App* sweep = app.add_subcommand("sweep", "Run a case with many values of some of its keys");
+  sweep->add_option("CASE", a.case_path, "Case file (TOML)")->required();
+  sweep
+      ->add_option("--vary", a.vary,
+                   "A key and its values, as in --vary \"wall.disc.mesh.size=0.1 mm,0.2 mm\", or a range of "
+                   "them, 0.1..1 mm (with :N for N values of it, :log for equal ratios); may be repeated")
+      ->type_name("KEY=VALUES")
+      ->allow_extra_args(false)
+      ->required();
+  sweep
+      ->add_option("--design", a.design,
+                   "grid: all with all (default); list: side by side; lhs: Latin hypercube; sobol")
+      ->check(CLI::IsMember({"grid", "list", "lhs", "sobol"}));
+  sweep->add_option("--samples", a.samples, "Number of runs of lhs and sobol")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  sweep->add_option("--seed", a.seed, "Seed of lhs (default: 1)")->type_name("S");
+  sweep
+      ->add_option("-o,--output", a.output,
+                   "Folder for everything that comes out (default: out/<name of the case>-sweep)")
+      ->type_name("DIR");
+  add_overrides(*sweep, a.overrides);
+  sweep->add_option("--jobs", a.jobs, "Runs at a time (default: as many as the machine has cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* only =
+      sweep->add_option("--case", a.only, "Make only run K, from 1, and no table: for job arrays")
+          ->type_name("K")
+          ->check(CLI::Range(1, 100000));
+  CLI::Option* collect =
+      sweep->add_flag("--collect", a.collect, "Run nothing; make the table and the report of what is there")
+          ->excludes(only);
+  CLI::Option* exported =
+      sweep->add_option("--export", a.export_format, "Write a job array or a workflow instead of running")
+          ->check(CLI::IsMember({"slurm", "snakemake"}))
+          ->excludes(only)
+          ->excludes(collect);
+  sweep->add_option("--to", a.export_path, "File for --export (default: stdout)")
+      ->type_name("FILE")
+      ->needs(exported);
+  sweep->add_flag("--force", a.force, "Replace runs of other inputs in that folder, and repeat failed ones");
+  sweep->add_flag("--quiet", a.quiet, "No progress, only warnings and errors");
+  sweep->add_flag("--json", a.json, "Print batch.json (with --case: run.json) to stdout at the end");
 }
 
 void declare(CLI::App& app, Arguments& a) {
@@ -56,6 +103,8 @@ void declare(CLI::App& app, Arguments& a) {
   CLI::Option* dry =
       run->add_flag("--dry-run", a.run.dry_run, "Print the resolved case to stdout and write nothing");
   run->add_flag("--json", a.run.json, "Print run.json to stdout at the end")->excludes(dry);
+
+  declare_sweep(app, a.sweep);
 
   CLI::App* check = app.add_subcommand("check", "Say what is wrong with a case file or a mesh");
   check->add_option("CASE|MESH", a.check.path, "Case file (TOML), or mesh (.stl, .obj, .ply)")->required();
@@ -81,6 +130,7 @@ void declare(CLI::App& app, Arguments& a) {
 
 int dispatch(const CLI::App& app, const Arguments& a) {
   if (app.got_subcommand("run")) return cli::run_command(a.run);
+  if (app.got_subcommand("sweep")) return cli::sweep_command(a.sweep);
   if (app.got_subcommand("check")) return cli::check_command(a.check);
   if (app.got_subcommand("report")) return cli::report_command(a.report_folder);
   if (app.got_subcommand("new")) return cli::new_command(a.create);

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/report/sweep_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string_view>
+
+namespace abradem::report {
+namespace {
+
+/// A result worth a figure.
+struct Shown {
+  std::string_view column, id, title, axis;
+};
+constexpr std::array kShown{
+    Shown{"swept_volume_mm3", "volume", "Worn volume", "volume the wall lost [mm³]"},
+    Shown{"depth_mean_mm", "depth", "Depth of the groove", "mean depth of the sections [mm]"},
+    Shown{"width_mean_mm", "width", "Width of the groove", "mean width of the sections [mm]"},
+    Shown{"area_mean_mm2", "area", "Worn section", "mean area of the sections [mm²]"},
+    Shown{"force_mean_N", "force", "Normal force", "mean normal force of the last interval [N]"},
+    Shown{"kappa", "kappa", "Volume lost over volume of the law", "κ [-]"},
+};
+
+/// Same to this relative difference: nothing to see in a figure.
+constexpr double kSame = 1e-9;
+
+const SweepColumn* find(const SweepTable& table, std::string_view title) {
+  const auto found = std::ranges::find(table.results, title, &SweepColumn::title);
+  return found == table.results.end() ? nullptr : &*found;
+}
+
+bool varies(const SweepColumn& column) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double x : column.number)
+    if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
+  return high - low > kSame * std::max(std::abs(low), std::abs(high));
+}
+
+/// Positions of a factor's values along an axis: the numbers themselves, or 0, 1, … for words, in the order
+/// in which they first appear.
+struct Positions {
+  std::vector<double> x;
+  Axis axis;
+};
+
+Positions positions_of(const SweepColumn& factor) {
+  Positions p;
+  p.axis.title = factor.title.ends_with(']') ? factor.title : factor.title + " [-]";
+  if (!factor.number.empty()) {
+    p.x = factor.number;
+    p.axis.log = factor.logarithmic;
+    return p;
+  }
+  std::map<std::string, double> known;
+  for (const std::string& word : factor.text) {
+    const auto [at, is_new] = known.try_emplace(word, static_cast<double>(known.size()));
+    if (is_new) p.axis.labels.emplace_back(at->second, word);
+    p.x.push_back(at->second);
+  }
+  return p;
+}
+
+/// The mean of y at each x; empty unless some x has several values and there are at least two.
+Series level_means(const std::vector<double>& x, const std::vector<double>& y) {
+  std::map<double, std::pair<double, int>> levels;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(y[i])) continue;
+    auto& [sum, count] = levels[x[i]];
+    sum += y[i];
+    ++count;
+  }
+  Series means{.kind = Series::Kind::line, .name = "mean"};
+  const bool repeated = std::ranges::any_of(levels, [](const auto& l) { return l.second.second > 1; });
+  if (!repeated || levels.size() < 2) return means;
+  for (const auto& [at, level] : levels) {
+    means.x.push_back(at);
+    means.y.push_back(level.first / level.second);
+  }
+  return means;
+}
+
+Panel effect_panel(const SweepColumn& factor, const SweepColumn& result, std::string_view axis,
+                   bool only_factor) {
+  Positions positions = positions_of(factor);
+  Panel panel{.x = positions.axis, .y = {.title = std::string(axis)}};
+  Series means = level_means(positions.x, result.number);
+  Series runs{.kind = Series::Kind::markers, .name = "runs", .x = positions.x, .y = result.number};
+  if (only_factor && means.x.empty() && !factor.number.empty()) {
+    // One key alone: the runs are points of a curve.
+    std::vector<std::size_t> order(runs.x.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return positions.x[i]; });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      runs.x[i] = positions.x[order[i]];
+      runs.y[i] = result.number[order[i]];
+    }
+    runs.kind = Series::Kind::line_markers;
+  }
+  panel.series.push_back(std::move(runs));
+  if (!means.x.empty()) panel.series.push_back(std::move(means));
+  return panel;
+}
+
+}  // namespace
+
+std::vector<Figure> main_effects(const SweepTable& table, const std::string& id_prefix) {
+  std::vector<Figure> figures;
+  for (const Shown& shown : kShown) {
+    const SweepColumn* result = find(table, shown.column);
+    if (result == nullptr || !varies(*result)) continue;
+    Figure figure{.id = id_prefix + std::string(shown.id), .title = std::string(shown.title)};
+    bool averaged = false;
+    for (const SweepColumn& factor : table.factors) {
+      figure.panels.push_back(effect_panel(factor, *result, shown.axis, table.factors.size() == 1));
+      averaged = averaged || figure.panels.back().series.size() > 1;
+    }
+    figure.caption = fmt::format(
+        "At the end of each run ({} in the table), against {}.{}", shown.column,
+        table.factors.size() == 1 ? "the key that varies" : "each key that varies, whatever the others were",
+        averaged ? " Line: mean of the runs with that value." : "");
+    figure.columns = static_cast<int>(std::min<std::size_t>(2, figure.panels.size()));
+    figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+DataTable runs_table(const SweepTable& table, const std::string& id) {
+  DataTable out{.id = id, .title = "Runs"};
+  out.caption = "Values at the end of each run; summary.csv has all columns with all digits.";
+  out.columns = {"run", "status"};
+  for (const SweepColumn& factor : table.factors) out.columns.push_back(factor.title);
+  std::vector<const SweepColumn*> results;
+  for (const Shown& shown : kShown)
+    if (const SweepColumn* result = find(table, shown.column)) {
+      results.push_back(result);
+      out.columns.push_back(result->title);
+    }
+  for (std::size_t r = 0; r < table.names.size(); ++r) {
+    std::vector<std::string> row{table.names[r], table.status[r]};
+    for (const SweepColumn& factor : table.factors) row.push_back(factor.text[r]);
+    for (const SweepColumn* result : results)
+      row.push_back(std::isfinite(result->number[r]) ? fmt::format("{:.6g}", result->number[r]) : "–");
+    out.rows.push_back(std::move(row));
+    out.links.push_back(fmt::format("runs/{}/", table.names[r]));
+  }
+  return out;
+}
+
+Page sweep_page(const SweepSummary& summary, const SweepTable& table) {
+  const auto count = [&](std::string_view status) { return std::ranges::count(table.status, status); };
+  Page page{.title = summary.title.empty() ? "Sweep" : summary.title};
+  page.summary =
+      fmt::format("{}: {} of {} runs completed{}.", summary.design, count("completed"), table.names.size(),
+                  count("failed") > 0 ? fmt::format(", {} failed", count("failed")) : "");
+  page.cards = {{"runs", std::to_string(table.names.size())},
+                {"completed", std::to_string(count("completed"))},
+                {"keys varied", std::to_string(table.factors.size())},
+                {"time of all runs", fmt::format("{:.3g} s", summary.seconds)}};
+  PageSection effects{.title = "Main effects"};
+  for (Figure& figure : main_effects(table)) effects.items.emplace_back(std::move(figure));
+  if (effects.items.empty()) effects.items.emplace_back(Paragraph{"No result differs from run to run."});
+  page.sections.push_back(std::move(effects));
+  page.sections.push_back({.title = "Runs", .items = {runs_table(table)}});
+  if (!summary.command.empty())
+    page.sections.push_back({.title = "How it was made", .items = {Paragraph{summary.command}}});
+  return page;
+}
+
+}  // namespace abradem::report
