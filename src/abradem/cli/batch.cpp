@@ -82,6 +82,17 @@ bool is_empty_or_missing(const fs::path& folder) {
   return !fs::exists(folder, error) || fs::is_empty(folder, error);
 }
 
+/// Whether a folder holds files, at any depth, and none of them says that it is ours. Empty folders may have
+/// been made for us beforehand, and another process may just be writing the manifest.
+bool is_of_others(const fs::path& folder) {
+  std::error_code error;
+  bool files = false;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end && !files;
+       entry.increment(error))
+    files = !entry->is_directory() && !entry->path().filename().string().starts_with(kManifest);
+  return files && !fs::exists(folder / kManifest, error);
+}
+
 std::string read_text(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -185,7 +196,7 @@ Batch::Batch(const BatchOptions& options, std::span<const PreparedJob> jobs)
   if (fs::exists(options.output, error) && !fs::is_directory(options.output, error))
     throw InputError(
         fmt::format("output folder '{}' is a file; choose another with -o", options.output.string()));
-  if (!is_empty_or_missing(options.output) && !fs::exists(options.output / kManifest, error))
+  if (is_of_others(options.output))
     throw InputError(
         fmt::format("output folder '{}' holds files that are not of a sweep; choose another with -o",
                     options.output.string()));
@@ -365,8 +376,9 @@ BatchResult Batch::run() {
   prepare_folder();
   std::optional<FolderLock> own_lock;
   if (options_.only) own_lock.emplace(folder_of(*options_.only), FolderLock::Kind::exclusive);
-  // Processes that share the folder do not share its log.
-  log_.emplace(options_.only ? fs::path("/dev/null") : options_.output / "batch.log", options_.quiet);
+  // Processes that share the folder do not share its log; where nothing is done it stays as it is.
+  log_.emplace(options_.only || to_run_ == 0 ? fs::path("/dev/null") : options_.output / "batch.log",
+               options_.quiet);
   const int at_a_time = options_.at_a_time > 0
                             ? options_.at_a_time
                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

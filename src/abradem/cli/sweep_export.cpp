@@ -51,7 +51,7 @@ std::string shell_line(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(quoted, " "));
 }
 
-fs::path absolute(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
+fs::path full(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
 
 fs::path this_program() {
   std::error_code error;
@@ -136,8 +136,8 @@ std::string sweep_command_line(const SweepArguments& arguments) {
 }
 
 void export_sweep(const SweepArguments& arguments, const std::vector<study::Point>& points) {
-  const fs::path output = absolute(sweep_output(arguments));
-  const std::vector<std::string> words = arguments_of(arguments, absolute(arguments.case_path), output);
+  const fs::path output = full(sweep_output(arguments));
+  const std::vector<std::string> words = arguments_of(arguments, full(arguments.case_path), output);
   const bool slurm = arguments.export_format == "slurm";
   const std::string name = !arguments.export_path.empty() ? arguments.export_path
                            : slurm                        ? "FILE"

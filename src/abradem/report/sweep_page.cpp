@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <string_view>
 
 namespace abradem::report {
@@ -16,12 +17,13 @@ namespace {
 /// A result worth a figure.
 struct Shown {
   std::string_view column, id, title, axis;
+  double scale = 1.0;  ///< from the table's unit to the axis's
 };
 constexpr std::array kShown{
     Shown{"swept_volume_mm3", "volume", "Worn volume", "volume the wall lost [mm³]"},
-    Shown{"depth_mean_mm", "depth", "Depth of the groove", "mean depth of the sections [mm]"},
+    Shown{"depth_mean_mm", "depth", "Depth of the groove", "mean depth of the sections [µm]", 1e3},
     Shown{"width_mean_mm", "width", "Width of the groove", "mean width of the sections [mm]"},
-    Shown{"area_mean_mm2", "area", "Worn section", "mean area of the sections [mm²]"},
+    Shown{"area_mean_mm2", "area", "Worn section", "mean area of the sections [µm²]", 1e6},
     Shown{"force_mean_N", "force", "Normal force", "mean normal force of the last interval [N]"},
     Shown{"kappa", "kappa", "Volume lost over volume of the law", "κ [-]"},
 };
@@ -84,27 +86,87 @@ Series level_means(const std::vector<double>& x, const std::vector<double>& y) {
   return means;
 }
 
-Panel effect_panel(const SweepColumn& factor, const SweepColumn& result, std::string_view axis,
-                   bool only_factor) {
-  Positions positions = positions_of(factor);
-  Panel panel{.x = positions.axis, .y = {.title = std::string(axis)}};
-  Series means = level_means(positions.x, result.number);
-  Series runs{.kind = Series::Kind::markers, .name = "runs", .x = positions.x, .y = result.number};
-  if (only_factor && means.x.empty() && !factor.number.empty()) {
-    // One key alone: the runs are points of a curve.
-    std::vector<std::size_t> order(runs.x.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return positions.x[i]; });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      runs.x[i] = positions.x[order[i]];
-      runs.y[i] = result.number[order[i]];
-    }
-    runs.kind = Series::Kind::line_markers;
+/// Runs as points in the order of their x, joined by a line.
+Series curve(std::string name, const std::vector<std::size_t>& runs, const std::vector<double>& x,
+             const std::vector<double>& y, int colour) {
+  Series series{.kind = Series::Kind::line_markers, .name = std::move(name)};
+  series.colour = colour;
+  std::vector<std::size_t> order = runs;
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return x[i]; });
+  for (const std::size_t i : order) {
+    series.x.push_back(x[i]);
+    series.y.push_back(y[i]);
   }
-  panel.series.push_back(std::move(runs));
-  if (!means.x.empty()) panel.series.push_back(std::move(means));
-  return panel;
+  return series;
 }
+
+constexpr std::size_t kColours = 8;  // of a page
+
+/// Runs by their value of one factor, in the order of the table.
+std::vector<std::pair<std::string, std::vector<std::size_t>>> levels_of(const SweepColumn& factor) {
+  std::vector<std::pair<std::string, std::vector<std::size_t>>> levels;
+  for (std::size_t i = 0; i < factor.text.size(); ++i) {
+    const auto known = std::ranges::find_if(levels, [&](const auto& l) { return l.first == factor.text[i]; });
+    if (known == levels.end())
+      levels.push_back({factor.text[i], {i}});
+    else
+      known->second.push_back(i);
+  }
+  return levels;
+}
+
+/// A result against one of the factors.
+class EffectPanel {
+ public:
+  EffectPanel(const SweepTable& table, std::size_t factor, const Shown& shown, const SweepColumn& result)
+      : table_(table), factor_(factor), positions_(positions_of(table.factors[factor])) {
+    for (const double value : result.number) y_.push_back(shown.scale * value);
+    panel_.x = positions_.axis;
+    panel_.y.title = shown.axis;
+  }
+
+  Panel make() {
+    if (table_.factors.size() == 1 && !table_.factors[0].number.empty())
+      panel_.series.push_back(curve("", all_runs(), positions_.x, y_, 0));
+    else if (!draw_curves())
+      draw_points();
+    return std::move(panel_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::size_t> all_runs() const {
+    std::vector<std::size_t> runs(y_.size());
+    std::iota(runs.begin(), runs.end(), std::size_t{0});
+    return runs;
+  }
+
+  /// Two factors on a grid of few values: one curve for each value of the other.
+  bool draw_curves() {
+    if (table_.factors.size() != 2) return false;
+    const SweepColumn& other = table_.factors[1 - factor_];
+    const auto own_levels = levels_of(table_.factors[factor_]), levels = levels_of(other);
+    if (levels.size() + own_levels.size() > kColours ||
+        levels.size() * own_levels.size() != table_.names.size())
+      return false;
+    const std::size_t first = factor_ == 0 ? 0 : own_levels.size();
+    for (std::size_t l = 0; l < levels.size(); ++l)
+      panel_.series.push_back(curve(fmt::format("{}: {}", other.title, levels[l].first), levels[l].second,
+                                    positions_.x, y_, static_cast<int>(first + l)));
+    return true;
+  }
+
+  void draw_points() {
+    panel_.series.push_back({.kind = Series::Kind::markers, .name = "runs", .x = positions_.x, .y = y_});
+    Series means = level_means(positions_.x, y_);
+    if (!means.x.empty()) panel_.series.push_back(std::move(means));
+  }
+
+  const SweepTable& table_;
+  std::size_t factor_;
+  Positions positions_;
+  std::vector<double> y_;
+  Panel panel_;
+};
 
 }  // namespace
 
@@ -115,14 +177,13 @@ std::vector<Figure> main_effects(const SweepTable& table, const std::string& id_
     if (result == nullptr || !varies(*result)) continue;
     Figure figure{.id = id_prefix + std::string(shown.id), .title = std::string(shown.title)};
     bool averaged = false;
-    for (const SweepColumn& factor : table.factors) {
-      figure.panels.push_back(effect_panel(factor, *result, shown.axis, table.factors.size() == 1));
-      averaged = averaged || figure.panels.back().series.size() > 1;
+    for (std::size_t f = 0; f < table.factors.size(); ++f) {
+      figure.panels.push_back(EffectPanel(table, f, shown, *result).make());
+      averaged = averaged || figure.panels.back().series.back().name == "mean";
     }
-    figure.caption = fmt::format(
-        "At the end of each run ({} in the table), against {}.{}", shown.column,
-        table.factors.size() == 1 ? "the key that varies" : "each key that varies, whatever the others were",
-        averaged ? " Line: mean of the runs with that value." : "");
+    figure.caption = fmt::format("At the end of each run ({} in the table), against {}.{}", shown.column,
+                                 table.factors.size() == 1 ? "the key that varies" : "each key that varies",
+                                 averaged ? " Line: mean of the runs with that value." : "");
     figure.columns = static_cast<int>(std::min<std::size_t>(2, figure.panels.size()));
     figures.push_back(std::move(figure));
   }

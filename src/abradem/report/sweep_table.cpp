@@ -21,7 +21,8 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-std::string number_text(double x) { return std::isfinite(x) ? core::format_number(x) : "nan"; }
+/// As in the tables of the runs.
+std::string number_text(double x) { return std::isfinite(x) ? fmt::format("{}", x) : "nan"; }
 
 /// The number of one value in another's unit; nullopt where it is none or of another kind.
 std::optional<double> in_unit(const io::NumberText& value, const std::string& unit) {
