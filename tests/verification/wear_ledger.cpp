@@ -266,6 +266,28 @@ TEST(Paper, DeformationSweepsSixTimesTheLawsVolume) {
   }
 }
 
+/// The rules of the paper at its largest wear coefficient and all its revolutions, against an independent
+/// implementation of the same rules in another language on another mesh of 0.1 mm: swept 2.531 mm^3, eq.
+/// 10-12 0.997 mm^3, depth 32.4 um. Deep in, contacts begin and end within every increment: the force jumps.
+TEST(Paper, RulesLastTwelveRevolutionsAndAgreeWithAnotherImplementation) {
+  PinOnDisc pin;
+  pin.half_band = 1.5e-3;
+  pin.contact = ContactRule::per_triangle;
+  pin.deformation = DeformationRule::paper;
+  pin.wear_coefficient = 5e-11;
+  pin.revolutions = 12.0;
+  Simulation run(pin.setup());
+  finish(run);
+  const simulation::Ledger ledger = run.ledger();
+  const double depth = measure_ring(run, pin.track).depth;
+  measured("paper's rules, 12 revolutions: swept, mm^3", 1e9 * ledger.swept, 2.531);
+  measured("paper's rules, 12 revolutions: eq. 10-12, mm^3", 1e9 * ledger.paper, 0.997);
+  measured("paper's rules, 12 revolutions: depth, um", 1e6 * depth, 32.4);
+  EXPECT_NEAR(ledger.swept, 2.531e-9, 0.02 * 2.531e-9);
+  EXPECT_NEAR(ledger.paper, 0.997e-9, 0.05 * 0.997e-9);
+  EXPECT_NEAR(depth, 32.4e-6, 0.05 * 32.4e-6);
+}
+
 TEST(Methods, DynamicAndQuasiStaticAgree) {
   PinOnDisc pin;
   pin.track = 8e-3;

@@ -19,6 +19,12 @@ std::size_t padded(std::size_t n) noexcept {
   return (n + MeshCandidates::kLanes - 1) / MeshCandidates::kLanes * MeshCandidates::kLanes;
 }
 
+/// What is left of an offset across the slide once the nearest point of the slide is taken as origin.
+inline Vec3 beside(const Vec3& slide, const Vec3& offset) noexcept {
+  const double length2 = norm2(slide);
+  return length2 > 0.0 ? offset - std::clamp(dot(offset, slide) / length2, 0.0, 1.0) * slide : offset;
+}
+
 /// What a ball of the given reach can meet while its centre stays within the skin around c.
 struct Sweep {
   Vec3 c, axis;
@@ -31,7 +37,10 @@ struct Sweep {
     const double r = reach + std::hypot(skin.tangential, skin.normal) + surface.displaced;
     const Vec3 d{surface.displaced, surface.displaced, surface.displaced};
     const geometry::BoundingBox mesh = surface.grid.box();
-    geometry::BoundingBox ball = clip({c - Vec3{r, r, r}, c + Vec3{r, r, r}}, {mesh.low - d, mesh.high + d});
+    const std::array<Vec3, 2> centres{c, c + skin.slide};
+    const geometry::BoundingBox way = geometry::bounding_box(centres);
+    const geometry::BoundingBox ball =
+        clip({way.low - Vec3{r, r, r}, way.high + Vec3{r, r, r}}, {mesh.low - d, mesh.high + d});
     // Nearest that the surface comes along the axis: there the cap is widest.
     double nearest = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 8; ++k) {
@@ -43,8 +52,8 @@ struct Sweep {
     if (nearest <= 0.0) return ball;
     const double wide =
         std::sqrt(std::max(0.0, reach * reach - nearest * nearest)) + skin.tangential + surface.displaced;
-    const Vec3 from = c + nearest * axis, to = c + r * axis, w{wide, wide, wide};
-    const std::array<Vec3, 2> ends{from, to};
+    const Vec3 from = nearest * axis, to = r * axis, w{wide, wide, wide};
+    const std::array<Vec3, 4> ends{c + from, c + to, c + skin.slide + from, c + skin.slide + to};
     const geometry::BoundingBox line = geometry::bounding_box(ends);
     return clip(ball, {line.low - w, line.high + w});
   }
@@ -55,17 +64,19 @@ struct Sweep {
             {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y), std::min(a.high.z, b.high.z)}};
   }
 
-  /// Something within `radius` of `centre` across the axis and `half_depth` of it along the axis.
-  [[nodiscard]] bool may_meet(const Vec3& centre, double radius, double half_depth) const noexcept {
+  /// Distance of `centre` from the axis on its way, when something within `radius` of it across the axis and
+  /// `half_depth` along the axis can be met.
+  [[nodiscard]] std::optional<double> may_meet(const Vec3& centre, double radius,
+                                               double half_depth) const noexcept {
     const Vec3 offset = centre - c;
     const double along = dot(offset, axis);
-    const double across = std::sqrt(std::max(0.0, norm2(offset) - along * along));
+    const double across = norm(beside(skin.slide, offset - along * axis));
     const double a = std::max(0.0, across - radius - skin.tangential);
     const double b = std::max(0.0, std::abs(along) - half_depth - skin.normal);
-    return a * a + b * b < reach * reach;
+    return a * a + b * b < reach * reach ? std::optional(across) : std::nullopt;
   }
 
-  /// Squared distance of the triangle's centroid from the axis, when the triangle can be met.
+  /// The same of a triangle.
   [[nodiscard]] std::optional<double> meets(const TriangleMesh& mesh, Index t) const noexcept {
     const geometry::Triangle& v = mesh.triangles[at(t)];
     const Vec3 &p0 = mesh.vertices[at(v[0])], &p1 = mesh.vertices[at(v[1])], &p2 = mesh.vertices[at(v[2])];
@@ -74,9 +85,7 @@ struct Sweep {
     const double radius = std::sqrt(std::max({norm2(q0), norm2(q1), norm2(q2)}));
     const double half_depth =
         std::max({std::abs(dot(q0, axis)), std::abs(dot(q1, axis)), std::abs(dot(q2, axis))});
-    if (!may_meet(centroid, radius, half_depth)) return std::nullopt;
-    const double along = dot(centroid - c, axis);
-    return norm2(centroid - c) - along * along;
+    return may_meet(centroid, radius, half_depth);
   }
 };
 
@@ -85,16 +94,16 @@ struct Sweep {
 bool MeshCandidates::stale(const SurfaceView& surface, const Vec3& c, double reach) const noexcept {
   const Vec3 moved = c - built_at_;
   const double along = dot(moved, built_axis_);
-  const double across2 = norm2(moved) - along * along;
+  const double across2 = norm2(beside(built_skin_.slide, moved - along * built_axis_));
   const double wear = surface.odometer - odometer_at_gather_;
   return !gathered_ || reach > built_reach_ || std::abs(along) + wear > built_skin_.normal ||
          across2 > built_skin_.tangential * built_skin_.tangential;
 }
 
 void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
-                            const CandidateSkin& skin, const Vec3& ahead) {
+                            const CandidateSkin& skin) {
   if (stale(surface, c, reach)) {
-    gather(surface, c, axis, reach, skin, ahead);
+    gather(surface, c, axis, reach, skin);
   } else if (revision_ != surface.revision) {
     fetch_positions(surface.mesh);
     // Positions are always the mesh's own; areas and lengths may lag behind by half a per cent of an edge,
@@ -109,22 +118,21 @@ void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec
 }
 
 void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
-                            const CandidateSkin& skin, const Vec3& ahead) {
-  const Vec3 middle = c + ahead;
+                            const CandidateSkin& skin) {
   const TriangleMesh& mesh = surface.mesh;
   if (local_.size() != mesh.vertices.size()) local_.assign(mesh.vertices.size(), -1);
   // A little more than asked for, so that a reach that wavers does not gather every step.
   built_reach_ = reach + 0.25 * skin.normal;
   // With no axis every direction is as likely: the whole skin counts as both.
   const double whole = std::hypot(skin.tangential, skin.normal);
-  const Sweep sweep{middle, axis, built_reach_, axis == Vec3{} ? CandidateSkin{whole, 0.0} : skin};
+  const Sweep sweep{c, axis, built_reach_, axis == Vec3{} ? CandidateSkin{whole, 0.0, skin.slide} : skin};
   found_.clear();
   const auto [low, high] = sweep.box(surface);
   double furthest = 0.0;
   surface.grid.visit_near(
       low, high,
       [&](const Vec3& centre, double r) {
-        return sweep.may_meet(centre, r + surface.displaced, r + surface.displaced);
+        return sweep.may_meet(centre, r + surface.displaced, r + surface.displaced).has_value();
       },
       [&](Index t) {
         if (const auto distance = sweep.meets(mesh, t)) {
@@ -164,7 +172,7 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   place_mean_plane(c, reach);
 
   gathered_ = true;
-  built_at_ = middle;
+  built_at_ = c;
   built_axis_ = axis;
   built_skin_ = skin;
   odometer_at_gather_ = odometer_at_measure_ = surface.odometer;

@@ -24,8 +24,9 @@ struct SurfaceView {
 
 /// How far a sphere may move before its candidates are gathered again: across the surface, and towards it.
 struct CandidateSkin {
-  double tangential = 0.0;  ///< [m]
+  double tangential = 0.0;  ///< to any side [m]
   double normal = 0.0;      ///< [m]
+  Vec3 slide{};             ///< besides, from where it is to where it is going, across the normal [m]
 };
 
 /// The triangles of a mesh that one sphere can meet, gathered into small contiguous arrays with vertices of
@@ -44,11 +45,8 @@ class MeshCandidates {
   /// vertices.
   /// @param axis unit vector from c towards the surface (the last contact's), or zero: unknown
   /// @param reach distance from c within which a triangle counts [m]
-  /// @param ahead where to put the middle of the skin, from c: towards where the sphere is going, by less
-  /// than
-  ///              the skin's tangential part, so that it is crossed from end to end [m]
   void update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
-              const CandidateSkin& skin, const Vec3& ahead = {});
+              const CandidateSkin& skin);
 
   /// Forgets everything, so that the next update gathers anew: makes a restarted run take the same steps.
   void reset() noexcept { gathered_ = false; }
@@ -80,7 +78,7 @@ class MeshCandidates {
 
  private:
   void gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
-              const CandidateSkin& skin, const Vec3& ahead);
+              const CandidateSkin& skin);
   void order_outwards(double furthest);
   void link_nodes();
   void place_mean_plane(const Vec3& c, double reach) noexcept;
@@ -92,7 +90,7 @@ class MeshCandidates {
   CandidateSkin built_skin_;
   double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0;
-  std::vector<std::pair<double, Index>> found_;  // scratch: squared distance from the axis, triangle
+  std::vector<std::pair<double, Index>> found_;  // scratch: distance from the way, triangle
   std::vector<Index> ordered_;                   // scratch
   std::vector<std::int32_t> local_;              // scratch: local number of a mesh vertex, or -1
 };

@@ -17,7 +17,7 @@ namespace abradem::simulation {
 /// begins) the bracket closes around the jump. The forces found are scaled to carry the load exactly, which
 /// is what one more step would do to them.
 void Simulation::find_equilibrium(std::size_t p) {
-  constexpr double kTolerance = 1e-6;  // of the load, before the forces are scaled
+  constexpr double kTolerance = 1e-4;  // of the load, before the forces are scaled
   constexpr int kMostSteps = 400;
   const Vec3 guide = particles_.guide[p];
   const double load = norm(particles_.load[p]) + particles_.mass[p] * dot(setup_.run.gravity, guide);

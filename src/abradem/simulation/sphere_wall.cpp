@@ -8,14 +8,7 @@
 namespace abradem::simulation {
 
 namespace {
-
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
-
-/// Mean of a candidate triangle's corners.
-Vec3 centroid(const contact::MeshCandidates& m, std::size_t t) noexcept {
-  return (m.node_position(at(m.v0[t])) + m.node_position(at(m.v1[t])) + m.node_position(at(m.v2[t]))) *
-         (1.0 / 3.0);
-}
 
 }  // namespace
 
@@ -24,20 +17,21 @@ void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
   if (wall.is_plane()) return;
   // The Hertz footprint reaches down to half its approach below the deepest point, which in a conforming
   // groove lies outside the ball.
-  reach_ = R + 0.5 * contact::hertz_overlap(pair, R, load);
+  const double approach = contact::hertz_overlap(pair, R, load);
+  reach_ = R + 0.5 * approach;
   // Skin: some tens of steps of motion, but no more than the patch can hide in.
   const double v_n = std::abs(dot(v, axis_));
   const Vec3 sliding = v - dot(v, axis_) * axis_;
   const double v_t = norm(sliding);
-  skin_ = {std::clamp(80.0 * v_t * dt, 0.005 * R, 0.1 * R), std::clamp(20.0 * v_n * dt, 0.001 * R, 0.1 * R)};
-  // The sphere starts near one end of the skin and slides to the other.
-  ahead_ = v_t > 0.0 ? sliding * (0.9 * skin_.tangential / v_t) : Vec3{};
+  skin_.tangential = 0.01 * R;
+  skin_.normal = std::clamp(20.0 * v_n * dt, 0.001 * R, 0.1 * R);
+  skin_.slide = v_t > 0.0 ? sliding * (std::clamp(160.0 * v_t * dt, 0.01 * R, 0.25 * R) / v_t) : Vec3{};
   stale_ = candidates_.stale(wall.view(), c, reach_);
-  // Under `patch` what is worn stays in contact over a short slide.
-  constexpr double kShortSlide =
-      0.02;  // of R: well inside the margin between wear and the rim of the contact
+  // Under `patch` what is worn stays in contact over a short slide: wear ends at the contact radius a, the
+  // ball at sqrt(2) a.
+  const double short_slide = 0.4 * contact::contact_radius(R, approach);
   if (stale_ || wall.setup().contact != ContactRule::patch ||
-      norm2(c - noted_at_) > kShortSlide * kShortSlide * R * R) {
+      norm2(c - noted_at_) > short_slide * short_slide) {
     add_centroid_motion(wall);
     noted_at_ = c;
   }
@@ -50,8 +44,8 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
     touch_plane(wall, c, R, pair);
     return;
   }
-  candidates_.update(wall.view(), c, axis_, reach_, skin_, ahead_);
-  if (stale_) note_centroids();
+  candidates_.update(wall.view(), c, axis_, reach_, skin_);
+  if (stale_) note_nodes();
   touches_.clear();
 
   if (wall.setup().contact == ContactRule::patch) {
@@ -262,12 +256,18 @@ void SphereWall::add_centroid_motion(const Wall& wall) {
                                [&](const Touch& touch) { return touch.part == static_cast<int>(t); });
   };
   const geometry::TriangleMesh& mesh = wall.surface().mesh();
-  for (std::size_t t = 0; t < centroid_.size(); ++t) {
-    const geometry::Triangle& v = mesh.triangles[at(candidates_.triangle[t])];
-    const Vec3 now =
-        (mesh.vertices[at(v[0])] + mesh.vertices[at(v[1])] + mesh.vertices[at(v[2])]) * (1.0 / 3.0);
-    if (now != centroid_[t] && touched(t)) centroid_volume_ += norm(now - centroid_[t]) * candidates_.area[t];
-    centroid_[t] = now;
+  bool moved = false;
+  for (std::size_t i = 0; i < noted_.size(); ++i) {
+    const Vec3& now = mesh.vertices[at(candidates_.node[i])];
+    motion_[i] = now - noted_[i];
+    noted_[i] = now;
+    moved = moved || motion_[i] != Vec3{};
+  }
+  if (!moved) return;
+  for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
+    const Vec3 sum =
+        motion_[at(candidates_.v0[t])] + motion_[at(candidates_.v1[t])] + motion_[at(candidates_.v2[t])];
+    if (sum != Vec3{} && touched(t)) centroid_volume_ += norm(sum) * candidates_.area[t] / 3.0;
   }
 }
 
@@ -286,9 +286,10 @@ int SphereWall::elements(const Wall& wall) const {
   return std::max(count, static_cast<int>(touches_.size()));
 }
 
-void SphereWall::note_centroids() {
-  centroid_.resize(candidates_.triangle_count());
-  for (std::size_t t = 0; t < centroid_.size(); ++t) centroid_[t] = centroid(candidates_, t);
+void SphereWall::note_nodes() {
+  noted_.resize(candidates_.node_count());
+  motion_.resize(noted_.size());
+  for (std::size_t i = 0; i < noted_.size(); ++i) noted_[i] = candidates_.node_position(i);
 }
 
 void SphereWall::add_to(core::StateHash& hash) const {

@@ -109,7 +109,7 @@ class SphereWall {
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
   contact::TangentialHistory& recall(const Touch& touch, ContactRule rule);
   void add_centroid_motion(const Wall& wall);
-  void note_centroids();
+  void note_nodes();
   [[nodiscard]] bool inside(std::size_t t) const noexcept;
 
   contact::MeshCandidates candidates_;
@@ -123,10 +123,10 @@ class SphereWall {
   bool stale_ = true;                 // the candidates were gathered anew in this step
   double reach_ = 0.0;
   contact::CandidateSkin skin_;
-  Vec3 ahead_, noted_at_;
+  Vec3 noted_at_;
   Vec3 axis_;  // towards the surface, from the last contact
   double centroid_volume_ = 0.0;
-  std::vector<Vec3> centroid_;  // of each candidate when last noted
+  std::vector<Vec3> noted_, motion_;  // of each candidate node: where it was when last noted; since then
 };
 
 }  // namespace abradem::simulation
