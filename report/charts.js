@@ -7,7 +7,7 @@ const $ = (selector, root = document) => root.querySelector(selector);
 // What is drawn for: the screen, paper, or a file of a picture (both light, of fixed width [px]).
 const kPaperWidth = 690, kPictureWidth = 900;
 let fixedWidth = 0;
-const narrow = () => !fixedWidth && window.innerWidth < 620;
+const narrow = () => !fixedWidth && window.innerWidth < 620, onPaper = () => fixedWidth === kPaperWidth;
 
 // ---------------------------------------------------------------- data blocks
 async function inflate(id, format = 'deflate') {
@@ -152,7 +152,7 @@ function figure(id, draw, file, csv) {
     control.addEventListener('change', () => queue(() => render(entry, control.dataset.control)));
   }
   offerCsv($('a.csv', root), file, csv);
-  const name = file.replace('.csv', '');
+  const name = id.replace('fig-', '');
   entry.buttons = ['SVG', 'PNG'].map((format) => button(format, `Save this figure as ${format}`, () =>
     picture(entry, format.toLowerCase()).then((blob) => save(`${name}.${format.toLowerCase()}`, blob).click()).catch(fail)));
   $('.links', root).append(' ', entry.buttons[0], ' ', entry.buttons[1]);
@@ -304,6 +304,6 @@ async function start(prepare) {
   }
 }
 
-return { $, narrow, inflateText, inflateNumbers, table, times, unique, whereEqual, finite, largest, smallest, digits, roundDown, css, transparent, plain,
+return { $, narrow, onPaper, inflateText, inflateNumbers, table, times, unique, whereEqual, finite, largest, smallest, digits, roundDown, css, transparent, plain,
          kDepthScale, axis, sceneAxis, colourBar, figure, figures, picture, bandTraces, start };
 })();

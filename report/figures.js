@@ -2,7 +2,7 @@
 // The figures of a page as page.h describes them: a specification (data-figures) and a table for each (data-fig-<id>).
 'use strict';
 (() => {
-const { narrow, inflateText, unique, finite, largest, smallest, digits, roundDown, css, transparent, plain, kDepthScale, axis, sceneAxis, colourBar, figure } = Charts;
+const { narrow, onPaper, inflateText, unique, finite, largest, smallest, digits, roundDown, css, transparent, plain, kDepthScale, axis, sceneAxis, colourBar, figure } = Charts;
 
 const kSymbols = ['circle', 'square', 'diamond', 'triangle-up', 'cross', 'star', 'triangle-down', 'hexagon'];
 const isGrid = ({ kind }) => kind === 'heat' || kind === 'surface';
@@ -157,19 +157,28 @@ function sceneLayout(series, panel, parts) {
 }
 
 // ---------------------------------------------------------------- panels in a grid
+// Heights of the rows of panels [px]: views in 3D need more, maps less, and paper has little.
+function rowHeights(specification, columns) {
+  const n = specification.panels.length, rows = Math.ceil(n / columns), out = [];
+  for (let r = 0; r < rows; ++r) {
+    const kinds = specification.panels.slice(r * columns, (r + 1) * columns).flatMap(({ series }) => series.map(({ kind }) => kind));
+    const height = kinds.includes('surface') ? [480, 380] : kinds.includes('heat') ? [270, 250, 220] : [n === 1 ? 340 : 290, 270, 230];
+    out.push(Math.round((height[columns - 1] ?? height.at(-1)) * (onPaper() ? .85 : 1)));
+  }
+  return out;
+}
+
 function gridOf(specification, width, legendHeight, bars) {
-  const n = specification.panels.length, columns = narrow() ? 1 : Math.min(specification.columns, n), rows = Math.ceil(n / columns);
-  const scenes = specification.panels.some(({ series }) => series.some(({ kind }) => kind === 'surface'));
-  const titled = specification.panels.some(({ title }) => title);
-  const cell = (scenes ? (columns === 1 ? 480 : 380) : columns === 1 && rows === 1 ? 340 : columns === 1 ? 280 : columns === 2 ? 270 : 230);
+  const n = specification.panels.length, columns = narrow() ? 1 : Math.max(1, Math.min(specification.columns, n));
+  const titled = specification.panels.some(({ title }) => title), rows = rowHeights(specification, columns);
   const margin = { l: 66, r: narrow() ? 12 : 18, t: legendHeight + (titled ? 26 : 8), b: 54 };
   if (bars && narrow()) margin.b += 62 * bars; else if (bars) margin.r += 84;
-  const gap = { x: 84, y: titled ? 92 : 72 };
-  const inner = { w: Math.max(80, width - margin.l - margin.r), h: rows * cell + (rows - 1) * gap.y };
+  const gap = { x: 84, y: titled ? 92 : 72 }, tops = rows.map((_, r) => rows.slice(0, r).reduce((sum, h) => sum + h + gap.y, 0));
+  const inner = { w: Math.max(80, width - margin.l - margin.r), h: tops.length ? tops.at(-1) + rows.at(-1) : 80 };
   const w = (inner.w - (columns - 1) * gap.x) / columns;
   const domains = specification.panels.map((_, p) => {
-    const c = p % columns, r = Math.floor(p / columns), left = c * (w + gap.x), top = r * (cell + gap.y);
-    return { x: [left / inner.w, (left + w) / inner.w], y: [1 - (top + cell) / inner.h, 1 - top / inner.h] };
+    const c = p % columns, r = Math.floor(p / columns), left = c * (w + gap.x);
+    return { x: [left / inner.w, (left + w) / inner.w], y: [Math.max(0, 1 - (tops[r] + rows[r]) / inner.h), 1 - tops[r] / inner.h] };
   });
   return { domains, margin, inner, height: inner.h + margin.t + margin.b };
 }

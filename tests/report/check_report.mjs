@@ -1,57 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// check_report.mjs <chromium> <report.html> <figures>: opens the page as a reader does and fails, saying why, when
-// a figure is missing or empty, the console complains, anything is loaded, or the page is wider than a phone.
-import { readFileSync } from 'node:fs';
-import { resolve } from 'node:path';
-import { pathToFileURL } from 'node:url';
-import { launch } from './browser.mjs';
+// check_report.mjs <chromium> <report.html> <figures>: a run's report as its readers see it; fails, saying why.
+import { visit } from './visit.mjs';
 
 const [chromium, file, wanted] = process.argv.slice(2);
-const address = pathToFileURL(resolve(file)).href, failures = [];
-const check = (good, what) => { if (!good) failures.push(what); };
-const browser = await launch(chromium);
-let dialogs = 0;
-browser.listen((method, p) => {
-  if (method === 'Runtime.exceptionThrown') failures.push(`exception: ${p.exceptionDetails.exception?.description ?? p.exceptionDetails.text}`);
-  if (method === 'Runtime.consoleAPICalled' && ['error', 'assert'].includes(p.type)) failures.push(`console.${p.type}: ${p.args.map((a) => a.value ?? a.description).join(' ')}`);
-  if (method === 'Log.entryAdded' && p.entry.level === 'error') failures.push(`log: ${p.entry.text}`);
-  if (method === 'Network.requestWillBeSent' && p.request.url !== address && !/^(data|blob):/.test(p.request.url)) failures.push(`request: ${p.request.url}`);
-  if (method === 'Page.javascriptDialogOpening') { ++dialogs; browser.send('Page.handleJavaScriptDialog', { accept: true }); }
-});
-
-// What a figure holds: marks drawn, axis titles, a link to its data.
-const survey = `[...document.querySelectorAll('figure')].map((f) => ({
-  id: f.id,
-  plotted: Boolean(f.querySelector('.js-plotly-plot .main-svg')),
-  marks: f.querySelectorAll('.js-plotly-plot :is(.scatterlayer path.js-line, .barlayer path, .boxlayer path.box, .heatmaplayer image)').length,
-  canvas: f.querySelector('.gl-container canvas')?.width ?? 0,
-  empty: f.querySelector('.empty')?.textContent ?? '',
-  titles: [...f.querySelectorAll('.xtitle, .ytitle')].map((t) => t.textContent),
-  link: f.querySelector('a.csv').download,
-}))`;
-
-async function open(width, dark) {
-  await browser.resize(width, 900, dark);
-  await browser.send('Page.navigate', { url: address });
-  await browser.until('document.documentElement?.dataset.complete || document.documentElement?.dataset.ready === "failed"', 120);
-  const view = `${width} px${dark ? ', dark' : ''}`;
-  check(await browser.evaluate('document.documentElement.dataset.ready') === 'yes', `${view}: ${await browser.evaluate('document.getElementById("trouble").textContent')}`);
-  const wide = await browser.evaluate('document.documentElement.scrollWidth');
-  check(wide <= width, `${view}: the page is ${wide} px wide`);
-  const figures = await browser.evaluate(survey);
-  check(figures.filter((f) => f.plotted).length === Number(wanted), `${view}: ${figures.filter((f) => f.plotted).length} figures, expected ${wanted}`);
-  for (const figure of figures) {
-    check(figure.plotted !== Boolean(figure.empty), `${view}: ${figure.id} neither plots nor says why`);
-    if (!figure.plotted) continue;
-    check(figure.marks > 0 || figure.canvas > 0, `${view}: ${figure.id} is blank`);
-    for (const title of figure.titles) check(/\[.+\]$/.test(title), `${view}: axis '${title}' of ${figure.id} has no unit`);
-    check(figure.titles.length === 2 || figure.canvas > 0, `${view}: ${figure.id} lacks an axis title`);
-    check(figure.link.endsWith('.csv'), `${view}: ${figure.id} has no CSV`);
-  }
-}
-
+const page = await visit(chromium, file), { browser, check } = page;
 try {
-  await open(1280, false);
+  await page.open(1280, false, wanted);
   if (Number(wanted) > 0) {
     // The 3D view must show the groove: pixels of the deepest colour's blues, not a blank canvas.
     const { data } = await browser.send('Page.captureScreenshot', { format: 'png', clip: { ...await browser.evaluate(
@@ -74,24 +28,18 @@ try {
       await browser.evaluate(`(() => { const c = document.querySelector('#fig-${figure} [data-control=${control}]'); c.value = '${value}'; c.dispatchEvent(new Event('change')); })()`);
       await browser.until(`JSON.stringify([...document.querySelector('#fig-${figure} .plot').data].map((t) => [t.y.length, t.y[40], t.z?.length, t.z?.[40]])) + document.querySelector('#fig-${figure} .words').textContent !== ${JSON.stringify(before)}`, 60);
     }
-    // A link gives the table that the figure shows.
-    const csv = await browser.evaluate(`(async () => {
-      const link = document.querySelector('#fig-volume a.csv');
-      link.addEventListener('click', (event) => event.preventDefault());
-      link.click();
-      return [link.download, link.href.startsWith('blob:')];
-    })()`);
-    check(csv[0] === 'revolutions.csv' && csv[1], `the CSV link of the volume gives ${csv}`);
+    // The links save the table that the figure shows, and its picture.
+    const csv = (await page.save('#fig-volume a.csv', 'revolutions.csv')).toString();
+    check(csv.startsWith('revolution,time_s,law_volume_mm3,'), `the CSV of the volume begins '${csv.slice(0, 40)}'`);
+    const svg = (await page.save('#fig-volume .links button', 'volume.svg')).toString();
+    check(svg.startsWith('<svg') && svg.includes('wear volume [mm³]'), 'the SVG of the volume is none');
+    const { pages, size } = await page.print();
+    check(pages >= 5 && pages <= 15 && size > 100000, `printed: ${pages} pages, ${size} bytes`);
   }
-  await open(390, false);
-  await open(390, true);
-  check(dialogs === 0, 'text of the case ran as a script');
-  check(!/(src|href)="(https?:)?\/\//.test(readFileSync(file, 'utf8')), 'the page links to the network');
+  await page.open(390, false, wanted);
+  await page.open(390, true, wanted);
+  check(page.dialogs === 0, 'text of the case ran as a script');
 } catch (error) {
-  failures.push(String(error));
-} finally {
-  await browser.close();
+  page.failures.push(String(error));
 }
-for (const failure of failures) console.error(`FAIL ${failure}`);
-if (failures.length === 0) console.log('The report is complete at 1280 and 390 px and loaded nothing.');
-process.exit(failures.length ? 1 : 0);
+await page.finish('The report is complete at 1280 and 390 px and on paper, and loaded nothing.');

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# check_report.sh worn|unworn <make_report> <folder>: makes a run's folder, its report, and opens it in Chromium.
+# check_report.sh worn|unworn <make_report> <folder>: makes a run's folder, its report, and opens it in Chromium;
+# check_report.sh page <make_page> <folder>: the same with a page of every kind of figure.
 # Returns 77 (skipped) where Python, Node or Chromium is not installed.
 set -eu
 here=$(dirname "$0") kind=$1 make_report=$2 folder=$3
@@ -14,7 +15,8 @@ case $kind in
   # The title tries to be markup, a script and a place of the template.
   worn) python3 "$here/make_run.py" "$folder" --title '<script>alert("run")</script> {{charts}} & "pin"'; figures=10 ;;
   unworn) python3 "$here/make_run.py" "$folder" --unworn; figures=0 ;;
-  *) echo "unknown kind '$kind'; expected worn or unworn" >&2; exit 2 ;;
+  page) "$make_report" "$folder"; exec "$node" "$here/check_page.mjs" "$chromium" "$folder/report.html" ;;
+  *) echo "unknown kind '$kind'; expected worn, unworn or page" >&2; exit 2 ;;
 esac
 "$make_report" "$folder"
 exec "$node" "$here/check_report.mjs" "$chromium" "$folder/report.html" "$figures"
