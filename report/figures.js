@@ -149,7 +149,8 @@ function sceneLayout(series, panel, parts) {
   const titles = series.polar ? [`x ${unit}`, `y ${unit}`] : [panel.x.title, panel.y.title];
   return {
     aspectmode: 'manual', aspectratio: { x: ratio(xr), y: ratio(yr), z: ratio(zr) }, dragmode: 'orbit', uirevision: 'kept',
-    camera: { eye: { x: series.polar ? 0 : .7 * far, y: -1.2 * far, z: 1.15 * far }, center: { x: 0, y: -.1, z: -.1 } },
+    camera: series.polar ? { eye: { x: 0, y: -1.34 * far, z: 1.56 * far }, center: { x: 0, y: -.2, z: -.12 } }
+                         : { eye: { x: .8 * far, y: -1.4 * far, z: 1.2 * far }, center: { x: 0, y: 0, z: -.12 } },
     xaxis: sceneAxis(plain(titles[0]), { range: xr }), yaxis: sceneAxis(plain(titles[1]), { range: yr }),
     // Seen as a whole ring, the heights are too flat for a scale; the colours have one.
     zaxis: sceneAxis(plain(series.z_title), { range: zr, tickvals: levels.map((v) => v * factor), ticktext: levels.map((v) => String(Number(v.toPrecision(3)))), visible: ratio(zr) > .15 }),

@@ -115,7 +115,7 @@ function surfaceFigure(data, facts, arrays) {
     layout: { margin: { l: 60, r: 10, t: 10, b: narrow() ? 110 : 48 },
               xaxis: axis(polar ? 'angle [°]' : 'x [mm]', { showgrid: false, ...(polar ? { tickvals: [0, 60, 120, 180, 240, 300, 360], range: [0, 360] } : {}) }),
               yaxis: axis(polar ? 'radius [mm]' : 'y [mm]', { showgrid: false }) },
-    caption: polar ? 'The track unrolled: depth below the unworn surface, every half degree.' : 'Depth below the unworn surface, seen from above.',
+    caption: polar ? 'Depth below the unworn surface after the last output, the track unrolled along its angle.' : 'Depth below the unworn surface after the last output, seen from above.',
   }), 'wear-map.csv', () => {
     let text = polar ? 'angle_deg,radius_mm,depth_um\n' : 'x_mm,y_mm,depth_um\n';
     v.forEach((vv, r) => u.forEach((uu, c) => { const d = map[r * m.u_count + c]; if (!Number.isNaN(d)) text += `${uu.toFixed(3)},${vv.toFixed(4)},${d.toFixed(4)}\n`; }));
@@ -163,7 +163,7 @@ function profileFigure({ profiles }, { thinned }) {
                hovertemplate: `${Number(angle.toFixed(1))}°<br>radius %{x:.3f} mm<br>height %{y:.3f} µm<extra></extra>` };
     });
     return { traces, layout: { uirevision: 'profiles', xaxis: axis('radius [mm]'), yaxis: axis('height [µm]') },
-             caption: 'Cuts across the track, height greatly exaggerated against radius.' + (thinned.profiles ? ' Some revolutions are left out here; tables/profiles.csv has all.' : '') };
+             caption: `Cuts across the track after ${counted} ${Number(Number(controls.revolution.value).toPrecision(6))}, at the angles named; heights in µm over radii in mm, so depth is greatly exaggerated.` + (thinned.profiles ? ' Some revolutions are left out here; tables/profiles.csv has all.' : '') };
   }, 'profiles.csv', () => profiles.csv);
 }
 
@@ -208,7 +208,7 @@ function growthFigure(id, { revolutions }, { mean, sd, low, high, factor, unit, 
                                        hovertemplate: `${along.word} %{x:.6~g}<br>${name} %{y:.4~g} ${unit}<extra></extra>` });
     if (low) traces.push({ ...limit(high, 'largest'), name: 'smallest, largest', legendgroup: 'limits' }, { ...limit(low, 'smallest'), showlegend: false, legendgroup: 'limits' });
     return { traces, layout: { xaxis: axis(along.title, { rangemode: 'tozero' }), yaxis: axis(`${noun} [${unit}]`, { rangemode: 'tozero' }) },
-             caption: `${noun[0].toUpperCase()}${noun.slice(1)} over all contours of each ${along.word}.` };
+             caption: `Over all contours of each ${along.word}: mean, one standard deviation either side${low ? ', smallest and largest' : ''}.${range ? ' The wide band is what the laboratory measured.' : ''}` };
   }, 'revolutions.csv', () => revolutions.csv);
 }
 
@@ -225,7 +225,7 @@ function boxFigure({ force }) {
     return { traces: [{ type: 'box', x, y, boxpoints: 'outliers', line: { color: css('--s1'), width: 1.3 }, fillcolor: css('--s1-band'), name: '',
                         marker: { color: css('--s1'), size: 3, opacity: .6 }, showlegend: false }],
              layout: { margin: { l: 56, r: 12, t: 12, b: 48 }, boxgap: .35, xaxis: axis(`${counted} [-]`, { type: 'category', showgrid: false }), yaxis: axis('normal force [N]') },
-             caption: 'Boxes: quartiles and median. Whiskers: the farthest samples within 1.5 times the box. Points: outliers.'
+             caption: 'Normal force between the loaded particle and the wall. Boxes: quartiles and median. Whiskers: the farthest samples within 1.5 times the box. Points: outliers.'
                     + (shown.length < all.length ? ` ${shown.length} of ${all.length} ${counted}s, evenly spread.` : '') };
   }, 'force.csv', () => force.csv);
 }
@@ -239,7 +239,7 @@ function forceFigure({ force }, { thinned }) {
                        overlap: ['overlap [µm]', curve('overlap_um', 'overlap', 'µm', '--s3')],
                        contacts: ['contacts [-]', curve('contacts', 'contacts', '[-]', '--s4')] }[controls.quantity.value];
     return { traces: quantity.slice(1), layout: { xaxis: axis('time [s]'), yaxis: axis(quantity[0], controls.quantity.value === 'contacts' ? { rangemode: 'tozero' } : {}) },
-             caption: 'The recorded samples of the contact' + (thinned.force ? ', thinned for this page; tables/force.csv has all that were recorded.' : '.') };
+             caption: `${{ force: 'Normal and tangential force between the loaded particle and the wall', overlap: 'Overlap of the loaded particle and the wall', contacts: 'Contacts between the loaded particle and the wall' }[controls.quantity.value]}, as recorded` + (thinned.force ? '; thinned for this page, tables/force.csv has all.' : '.') };
   }, 'force.csv', () => force.csv);
 }
 
