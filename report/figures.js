@@ -170,26 +170,44 @@ function rowHeights(specification, columns) {
 }
 
 function gridOf(specification, width, legendHeight, bars) {
+  // Titles of axes break into lines where the panel is too small for them.
+  const lines = (title, room) => wrap(title, Math.max(12, Math.floor(room / 7.4)));
   const n = specification.panels.length, columns = narrow() ? 1 : Math.max(1, Math.min(specification.columns, n));
   const titled = specification.panels.some(({ title }) => title), rows = rowHeights(specification, columns);
   const margin = { l: 66, r: narrow() ? 12 : 18, t: legendHeight + (titled ? 26 : 8), b: 54 };
   if (bars && narrow()) margin.b += 62 * bars; else if (bars) margin.r += 84;
-  const gap = { x: 84, y: titled ? 92 : 72 }, tops = rows.map((_, r) => rows.slice(0, r).reduce((sum, h) => sum + h + gap.y, 0));
+  const about = (width - margin.l - margin.r - 84 * (columns - 1)) / columns, more = 17 * (largest(specification.panels.map((p) => lines(p.x.title, about).length).concat(1)) - 1);
+  margin.b += more;
+  const gap = { x: 84, y: (titled ? 92 : 72) + more }, tops = rows.map((_, r) => rows.slice(0, r).reduce((sum, h) => sum + h + gap.y, 0));
   const inner = { w: Math.max(80, width - margin.l - margin.r), h: tops.length ? tops.at(-1) + rows.at(-1) : 80 };
   const w = (inner.w - (columns - 1) * gap.x) / columns;
   const domains = specification.panels.map((_, p) => {
     const c = p % columns, r = Math.floor(p / columns), left = c * (w + gap.x);
     return { x: [left / inner.w, (left + w) / inner.w], y: [Math.max(0, 1 - (tops[r] + rows[r]) / inner.h), 1 - tops[r] / inner.h] };
   });
-  return { domains, margin, inner, height: inner.h + margin.t + margin.b };
+  const titles = specification.panels.map((panel, p) => ({ x: lines(panel.x.title, w).join('<br>'), y: lines(panel.y.title, rows[Math.floor(p / columns)]).join('<br>') }));
+  return { domains, titles, margin, inner, height: inner.h + margin.t + margin.b };
 }
+
+// Text in lines of at most so many letters, broken at spaces, in long words after a dot, a slash or an underscore.
+function wrap(text, letters) {
+  const lines = [''];
+  for (const piece of text.split(/(?<=[ ./_])/)) {
+    if (lines.at(-1) && (lines.at(-1) + piece).trimEnd().length > letters) lines.push('');
+    lines[lines.length - 1] += piece;
+  }
+  return lines.map((line) => plain(line.trimEnd()));
+}
+const kLetter = 6.9;  // width of a letter of the legend [px], about
 
 // What the legend will take, as plotly sets it: side by side, or in columns as wide as the widest name.
 function legendHeight(names, width) {
   if (!names.length) return 0;
-  const sizes = names.map((name) => 48 + 6.9 * name.length), room = Math.max(80, width - 84), sum = sizes.reduce((a, b) => a + b, 0);
-  const rows = sum <= room ? 1 : Math.ceil(names.length / Math.max(1, Math.floor(room / largest(sizes))));
-  return 12 + 20 * rows;
+  const sizes = names.map((lines) => 48 + kLetter * largest(lines.map((line) => line.length))), room = Math.max(80, width - 84), sum = sizes.reduce((a, b) => a + b, 0);
+  const columns = sum <= room ? names.length : Math.max(1, Math.floor(room / largest(sizes)));
+  let height = 12;
+  for (let n = 0; n < names.length; n += columns) height += 4 + 16.5 * largest(names.slice(n, n + columns).map((lines) => lines.length));
+  return height;
 }
 
 // 0.002, 5, 1000; beyond that 10⁻⁴, 2·10⁶.
@@ -199,9 +217,9 @@ function tick(value) {
   return (lead === 1 ? '' : `${lead}·`) + '10' + (size < 0 ? '⁻' : '') + [...String(Math.abs(size))].map((d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[d]).join('');
 }
 
-function axisOf(description, values, domain, anchor) {
-  const { title, log, range, labels } = description;
-  const out = axis(plain(title), { domain, anchor });
+function axisOf(description, title, values, domain, anchor) {
+  const { log, range, labels } = description;
+  const out = axis(title, { domain, anchor });
   if (log) {
     const positive = range ?? values.filter((v) => v > 0), from = Math.floor(Math.log10(smallest(positive))) - 1, to = Math.ceil(Math.log10(largest(positive))) + 1;
     const decades = Math.log10(largest(positive) / smallest(positive)), steps = decades < .7 ? [1, 1.5, 2, 3, 4, 5, 6, 8] : decades < 2.2 ? [1, 2, 5] : [1], every = Math.ceil(decades / 8);
@@ -224,7 +242,7 @@ function describe(specification, width) {
   if (!all.some(hasData)) return { empty: 'There are no data for this figure.' };
   const named = [...new Set(all.filter(({ name, kind }) => name && !isGrid({ kind })).map(({ name }) => name))];
   const scales = [...new Set(all.filter(isGrid).map(({ z_title }) => z_title))].map((title, n) => ({ title, name: `coloraxis${n ? n + 1 : ''}` }));
-  const legend = legendHeight(named, width), grid = gridOf(specification, width, legend, scales.length);
+  const room = Math.max(16, Math.floor((width - 84 - 48) / kLetter)), legend = legendHeight(named.map((name) => wrap(name, room)), width), grid = gridOf(specification, width, legend, scales.length);
   const layout = {
     margin: grid.margin, height: grid.height, showlegend: named.length > 0, barmode: 'overlay', boxmode: 'overlay', annotations: [], uirevision: 'kept',
     legend: { orientation: 'h', x: 0, xanchor: 'left', y: 1, yref: 'container', yanchor: 'top', font: { size: 12.5 }, traceorder: 'normal' },
@@ -252,8 +270,9 @@ function describe(specification, width) {
     }
     const suffix = ++planes > 1 ? planes : '', ids = { x: `x${suffix}`, y: `y${suffix}` };
     const values = (role) => panel.series.flatMap((s) => [role, ...(role === 'y' ? ['y_low', 'y_high'] : [])].flatMap((r) => s[r] ? Array.from(s[r]) : []));
-    layout[`xaxis${suffix}`] = axisOf(panel.x, values('x'), domain.x, ids.y);
-    layout[`yaxis${suffix}`] = axisOf(panel.y, values('y'), domain.y, ids.x);
+    layout[`xaxis${suffix}`] = axisOf(panel.x, grid.titles[p].x, values('x'), domain.x, ids.y);
+    if (!panel.x.labels) Object.assign(layout[`xaxis${suffix}`], { tickangle: 0, nticks: Math.max(3, Math.floor((domain.x[1] - domain.x[0]) * grid.inner.w / (narrow() ? 52 : 66))) });
+    layout[`yaxis${suffix}`] = axisOf(panel.y, grid.titles[p].y, values('y'), domain.y, ids.x);
     const boxes = unique(panel.series.flatMap((s) => s.boxes?.map(({ x }) => x) ?? []));
     if (boxes.length && boxes.length < 16 && !panel.x.labels && !panel.x.log) Object.assign(layout[`xaxis${suffix}`], { tickmode: 'array', tickvals: boxes, ticktext: boxes.map((v) => String(Number(v.toPrecision(6)))) });
     if (panel.x.equal || panel.y.equal) Object.assign(layout[`yaxis${suffix}`], { scaleanchor: ids.x, constrain: 'domain' });
@@ -265,7 +284,7 @@ function describe(specification, width) {
       for (const { companion, ...trace } of kTraces[series.kind](series, panel, scales.find(({ title }) => title === series.z_title))) {
         const first = Boolean(series.name) && !companion && !isGrid(series) && !shown.has(series.name);
         if (first) shown.add(series.name);
-        traces.push({ ...trace, xaxis: ids.x, yaxis: ids.y, name: plain(series.name), showlegend: first, ...(series.name ? { legendgroup: series.name, legendrank: 1 + named.indexOf(series.name) } : {}) });
+        traces.push({ ...trace, xaxis: ids.x, yaxis: ids.y, name: wrap(series.name, room).join('<br>'), showlegend: first, ...(series.name ? { legendgroup: series.name, legendrank: 1 + named.indexOf(series.name) } : {}) });
       }
     }
   });
