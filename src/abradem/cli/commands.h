@@ -38,6 +38,20 @@ struct SweepArguments {
 /// Runs a case with many values of some of its keys.
 int sweep_command(const SweepArguments& arguments);
 
+struct CalibrateArguments {
+  std::string path;    ///< case file
+  std::string output;  ///< folder of the page; empty: none is written
+  std::vector<std::string> overrides;
+  std::string unknown = "wear_coefficient";  ///< or "revolutions"
+  std::string method;                        ///< of the trials; empty: quasi_static where it can be
+  std::string pair;                          ///< "abrader/worn"; empty: the only one
+  double coverage = 0.95;                    ///< of the intervals
+  int threads = 0;                           ///< 0: as many as the machine has
+  bool force = false, quiet = false, json = false;
+};
+/// Finds the wear coefficient or the number of revolutions that the measurement asks for.
+int calibrate_command(const CalibrateArguments& arguments);
+
 struct CheckArguments {
   std::string path;
   std::vector<std::string> overrides;

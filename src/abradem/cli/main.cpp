@@ -22,6 +22,7 @@ using namespace abradem;
 struct Arguments {
   cli::RunArguments run;
   cli::SweepArguments sweep;
+  cli::CalibrateArguments calibrate;
   cli::CheckArguments check;
   cli::NewArguments create;
   std::string report_folder;
@@ -82,6 +83,35 @@ void declare_sweep(CLI::App& app, cli::SweepArguments& a) {
   sweep->add_flag("--json", a.json, "Print batch.json (with --case: run.json) to stdout at the end");
 }
 
+void declare_calibrate(CLI::App& app, cli::CalibrateArguments& a) {
+  CLI::App* calibrate = app.add_subcommand(
+      "calibrate", "Find the wear coefficient (or the revolutions) that the measurement asks for");
+  calibrate->add_option("CASE", a.path, "Case file (TOML) with [measurement]")->required();
+  add_overrides(*calibrate, a.overrides);
+  calibrate
+      ->add_option(
+          "--for", a.unknown,
+          "What is sought: wear_coefficient (default), for the case's revolutions; or revolutions, for "
+          "its wear coefficient")
+      ->check(CLI::IsMember({"wear_coefficient", "revolutions"}));
+  calibrate->add_option("--pair", a.pair, "Which coefficient, where the case has several")
+      ->type_name("ABRADER/WORN");
+  calibrate
+      ->add_option("--method", a.method,
+                   "Method of the trial runs (default: quasi_static for guided particles)")
+      ->check(CLI::IsMember({"quasi_static", "dynamic"}));
+  calibrate->add_option("--coverage", a.coverage, "Coverage of the intervals (default: 0.95)")
+      ->type_name("P");
+  calibrate->add_option("-o,--output", a.output, "Folder for a page with figures (default: none)")
+      ->type_name("DIR");
+  calibrate->add_flag("--force", a.force, "Replace an earlier calibration in that folder");
+  calibrate->add_option("--threads", a.threads, "Number of threads (default: as many as the machine has)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  calibrate->add_flag("--quiet", a.quiet, "No progress, only warnings and errors");
+  calibrate->add_flag("--json", a.json, "Print the result as JSON");
+}
+
 void declare(CLI::App& app, Arguments& a) {
   app.set_version_flag(
       "--version", [] { return cli::version_text(); }, "Print version, commit, compiler and flags");
@@ -105,6 +135,7 @@ void declare(CLI::App& app, Arguments& a) {
   run->add_flag("--json", a.run.json, "Print run.json to stdout at the end")->excludes(dry);
 
   declare_sweep(app, a.sweep);
+  declare_calibrate(app, a.calibrate);
 
   CLI::App* check = app.add_subcommand("check", "Say what is wrong with a case file or a mesh");
   check->add_option("CASE|MESH", a.check.path, "Case file (TOML), or mesh (.stl, .obj, .ply)")->required();
@@ -131,6 +162,7 @@ void declare(CLI::App& app, Arguments& a) {
 int dispatch(const CLI::App& app, const Arguments& a) {
   if (app.got_subcommand("run")) return cli::run_command(a.run);
   if (app.got_subcommand("sweep")) return cli::sweep_command(a.sweep);
+  if (app.got_subcommand("calibrate")) return cli::calibrate_command(a.calibrate);
   if (app.got_subcommand("check")) return cli::check_command(a.check);
   if (app.got_subcommand("report")) return cli::report_command(a.report_folder);
   if (app.got_subcommand("new")) return cli::new_command(a.create);
