@@ -15,6 +15,7 @@ import json
 import math
 import pathlib
 import sys
+import textwrap
 
 SINGLE, DOUBLE = 85 / 25.4, 175 / 25.4  # widths of one column and of the page [inch]
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#7F7F7F"]  # Okabe and Ito
@@ -25,7 +26,7 @@ STYLE = {
     "font.size": 8, "axes.labelsize": 8, "axes.titlesize": 8, "legend.fontsize": 7, "xtick.labelsize": 7, "ytick.labelsize": 7,
     "font.family": "sans-serif", "font.sans-serif": ["Arial", "Helvetica", "Liberation Sans", "DejaVu Sans"], "axes.linewidth": 0.6,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "lines.linewidth": 1.2, "lines.markersize": 3.5, "axes.spines.top": False,
-    "axes.spines.right": False, "legend.frameon": False, "pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "abradem",
+    "axes.spines.right": False, "axes.formatter.useoffset": False, "legend.frameon": False, "pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "abradem",
 }
 
 
@@ -261,10 +262,31 @@ def log_ticks(axis, low, high):
         axis.set_minor_formatter(ticker.NullFormatter())
 
 
-def set_axes(axes, panel):
+def power(exponent):
+    return "10" + "".join("⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".index(c)] for c in str(exponent))
+
+
+def scaled(axis, title):
+    """Takes the power of ten of very small and very large numbers into the unit: [10⁻¹¹ 1/Pa]."""
+    from matplotlib import ticker
+
+    size = max(map(abs, axis.get_view_interval()))
+    exponent = math.floor(math.log10(size) + 1e-9) if size > 0 else 0
+    if -4 < exponent < 5:
+        return title
+    axis.set_major_formatter(ticker.FuncFormatter(lambda v, _: f"{v / 10.0**exponent:.4g}"))
+    at = title.rfind("[")
+    return f"{title[:at]}[{power(exponent)}{']' if title[at:] == '[-]' else ' ' + title[at + 1:]}" if at >= 0 else f"{title} [{power(exponent)}]"
+
+
+def set_axes(axes, panel, width):
     for which in "xy":
         description = panel[which]
-        getattr(axes, f"set_{which}label")(description["title"].replace("$", r"\$"))
+        title = description["title"]
+        if not description["log"] and not description.get("labels"):
+            title = scaled(getattr(axes, f"{which}axis"), title)
+        lines = textwrap.wrap(title, max(16, int(width * 72 / 4.1 * (1.0 if which == "x" else 0.75))))
+        getattr(axes, f"set_{which}label")("\n".join(lines).replace("$", r"\$"))
         if description["log"]:
             getattr(axes, f"set_{which}scale")("log")
             log_ticks(getattr(axes, f"{which}axis"), *(getattr(axes, f"get_{which}lim")() if not description.get("range") else description["range"]))
@@ -276,7 +298,7 @@ def set_axes(axes, panel):
         axes.set_aspect("equal", adjustable="datalim")
 
 
-def draw_panel(axes, panel, figure):
+def draw_panel(axes, panel, figure, width):
     """Draws one panel.   Returns what the legend names and the colour scale, if any."""
     legend, mappable = {}, None
     for series in panel["series"]:
@@ -296,7 +318,7 @@ def draw_panel(axes, panel, figure):
     if panel["title"]:
         axes.set_title(panel["title"].replace("$", r"\$"), loc="left", fontweight="bold")
     if not any(s["kind"] == "surface" for s in panel["series"]):
-        set_axes(axes, panel)
+        set_axes(axes, panel, width)
     return legend, mappable
 
 
@@ -312,7 +334,7 @@ def draw(figure, width):
     legend = {}
     for k, panel in enumerate(panels):
         axes = page.add_subplot(rows, columns, k + 1, projection="3d" if solid[k] else None)
-        named, mappable = draw_panel(axes, panel, figure)
+        named, mappable = draw_panel(axes, panel, figure, 0.8 * cell)
         for name, handle in named.items():
             legend.setdefault(name, handle)
         if mappable:
