@@ -86,7 +86,7 @@ std::string Progress::state(const simulation::Simulation& run) const {
   const auto steps = static_cast<double>(run.steps()), total = static_cast<double>(run.total_steps());
   const double left = steps > 0.0 ? elapsed * (total - steps) / steps : 0.0;
   const std::string where = run.turns() ? fmt::format("{} {:.2f}", io::counted(run.setup()), run.revolution())
-                                        : fmt::format("{:.4g} s", run.time());
+                                        : fmt::format("{:.4g} s", run.test_time());
   return fmt::format("{}  {:.0f} %  {} steps/s  wear {:.4g} mm^3  {} left", where, 100.0 * steps / total,
                      grouped(steps / std::max(elapsed, 1e-9)), 1e9 * run.law_volume(), clock_time(left));
 }

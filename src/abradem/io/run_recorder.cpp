@@ -65,7 +65,7 @@ void RunRecorder::observe(const Simulation& run) {
   normal_force_.add(f.normal);
   if (run.steps() % force_stride_ != 0) return;
   const simulation::NormalParts parts = run.normal_parts_on(watched_particle_);
-  force_.row({f.time, revolution_of(run), f.normal, f.tangential, 1e6 * f.overlap,
+  force_.row({run.test_time(), revolution_of(run), f.normal, f.tangential, 1e6 * f.overlap,
               static_cast<double>(run.elements_in_contact(watched_particle_)), parts.along, parts.across,
               parts.sum});
 }
@@ -83,7 +83,7 @@ void RunRecorder::output(bool last) {
   ledger_ = run_.ledger();
   const std::vector<analysis::Contour> contours =
       worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
-  last_ = analysis::revolution_row(revolution_of(run_), run_.time(),
+  last_ = analysis::revolution_row(revolution_of(run_), run_.test_time(),
                                    {ledger_.law, ledger_.swept, ledger_.paper}, contours, normal_force_);
   normal_force_ = {};
   tables_.add(*last_, contours);
@@ -92,7 +92,7 @@ void RunRecorder::output(bool last) {
 
 void RunRecorder::write_frame() {
   if (run_.setup().output.frames == simulation::Frames::none) return;
-  const double time = run_.time();
+  const double time = run_.test_time();
   for (std::size_t w = 0; w < run_.walls().size(); ++w) {
     const simulation::Wall& wall = run_.walls()[w];
     if (wall.is_plane()) continue;

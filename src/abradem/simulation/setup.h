@@ -29,9 +29,20 @@ struct ContactSetup {
   bool operator==(const ContactSetup&) const = default;
 };
 
+/// How many revolutions of the test one modelled revolution stands for: its wear counts so many times.
+/// `automatic` leaves the choice to study::choose_acceleration; a Simulation wants it made.
+/// docs/theory/scaling.md
+struct Acceleration {
+  double factor = 1.0;  ///< N / n >= 1; 1: every revolution of the test is modelled
+  bool automatic = false;
+  bool operator==(const Acceleration&) const = default;
+};
+
 struct WearSetup {
   std::string abrader, worn;      ///< the first wears the second
   double wear_coefficient = 0.0;  ///< alpha_s = k / H_s [1/Pa], Archard
+  Acceleration acceleration;
+  double tolerance = 0.01;  ///< acceleration automatic: of the groove's profile, relative L2 [-]
   bool operator==(const WearSetup&) const = default;
 };
 

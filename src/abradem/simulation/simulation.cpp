@@ -77,7 +77,17 @@ void Simulation::find_pair_properties() {
   for (const WearSetup& w : setup_.wear) {
     const auto a = static_cast<std::size_t>(index_of(setup_.materials, w.abrader, "material"));
     const auto b = static_cast<std::size_t>(index_of(setup_.materials, w.worn, "material"));
-    wear_[a * n + b] = w.wear_coefficient;
+    if (w.acceleration.automatic)
+      throw InputError(fmt::format(
+          "wear \"{}/{}\": the acceleration is still to be chosen; study::choose_acceleration does that",
+          w.abrader, w.worn));
+    if (!(w.acceleration.factor >= 1.0) || !std::isfinite(w.acceleration.factor))
+      throw InputError(fmt::format("wear \"{}/{}\": acceleration = {}; must be >= 1", w.abrader, w.worn,
+                                   w.acceleration.factor));
+    if (&w != &setup_.wear.front() && w.acceleration.factor != acceleration_)
+      throw InputError("the accelerations of the wear pairs differ; they shorten one and the same run");
+    acceleration_ = w.acceleration.factor;
+    wear_[a * n + b] = w.wear_coefficient * acceleration_;
   }
 }
 
@@ -111,33 +121,52 @@ void Simulation::add_particles() {
     for (std::size_t j = i + 1; j < particles_.size(); ++j) sphere_pairs_.push_back({i, j, {}, false});
 }
 
+/// Sliding distance per step of `quasi_static`, as shares f of the contact's half-width a [m].
+/// docs/theory/quasi-static.md#increment
+double Simulation::choose_increment() const {
+  constexpr double kShare = 0.2, kRevolutions = 12.0;  // resolves the contact in every single pass
+  constexpr double kPatch = 2.0;                       // the contact's length: no spot is left out
+  constexpr double kSteepest = 2.5;                    // of alpha E* f; unstable above 5
+  const double n = period_ > 0.0 ? end_ / period_ : 0.0;
+  double increment = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < particles_.size(); ++p)
+    for (const Wall& wall : walls_) {
+      const double R = particles_.radius[p];
+      const contact::PairProperties& properties = pair(particles_.material[p], wall.material());
+      const double a =
+          contact::contact_radius(R, contact::hertz_overlap(properties, R, norm(particles_.load[p])));
+      // A pass leaves a ripple of ~ f^(3/2) of its own wear, that is f^(3/2) / n of the groove.
+      double f = kShare;
+      if (wall.setup().contact == ContactRule::patch && wall.setup().deformation != DeformationRule::paper)
+        f = std::clamp(kShare * std::pow(n / kRevolutions, 2.0 / 3.0), kShare, kPatch);
+      const double alpha_E = wear_coefficient(particles_.material[p], wall.material()) * properties.E_eff;
+      if (alpha_E > 0.0) f = std::min(f, kSteepest / alpha_E);
+      increment = std::min(increment, f * a);
+    }
+  return increment;
+}
+
 void Simulation::choose_time_step() {
-  const double every = seconds_of(setup_.output.every, period_);
-  end_ = seconds_of(setup_.run.end, period_);
+  // The case counts revolutions and seconds of the test; the model makes fewer of them.
+  double every = seconds_of(setup_.output.every, period_) / acceleration_;
+  end_ = seconds_of(setup_.run.end, period_) / acceleration_;
+  // A groove that is worn in part of the way round is no row of a table.
+  if (acceleration_ > 1.0 && period_ > 0.0) every = period_ * std::max(1.0, std::round(every / period_));
   if (!(end_ > 0.0) || !(every > 0.0))
     throw InputError("the run's end and the output's interval must be > 0");
 
   double wanted = setup_.run.time_step.value;
   if (setup_.run.method == Method::quasi_static) {
-    // Increments of sliding: the fastest slide of any guided particle over any wall.
-    double increment = setup_.run.increment.value_or(0.0), speed = 0.0;
-    for (std::size_t p = 0; p < particles_.size(); ++p)
-      for (const Wall& wall : walls_) {
-        if (particles_.guide[p] == Vec3{} || norm(particles_.load[p]) == 0.0)
-          throw InputError(
-              fmt::format("method quasi_static: particle '{}' needs guide = \"vertical\" and a load",
-                          particles_.name[p]));
-        if (!setup_.run.increment) {
-          const double R = particles_.radius[p];
-          const double a =
-              contact::contact_radius(R, contact::hertz_overlap(pair(particles_.material[p], wall.material()),
-                                                                R, norm(particles_.load[p])));
-          increment = increment == 0.0 ? 0.2 * a : std::min(increment, 0.2 * a);
-        }
+    double speed = 0.0;
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      if (particles_.guide[p] == Vec3{} || norm(particles_.load[p]) == 0.0)
+        throw InputError(fmt::format(
+            "method quasi_static: particle '{}' needs guide = \"vertical\" and a load", particles_.name[p]));
+      for (const Wall& wall : walls_)
         speed = std::max(speed, norm(wall.pose_at(0.0).velocity_at(particles_.position[p])));
-      }
+    }
     if (!(speed > 0.0)) throw InputError("method quasi_static: no wall slides under a particle");
-    wanted = increment / speed;
+    wanted = setup_.run.increment.value_or(choose_increment()) / speed;
   } else if (setup_.run.time_step.of_rayleigh) {
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t p = 0; p < particles_.size(); ++p)
@@ -159,7 +188,7 @@ void Simulation::choose_time_step() {
   total_steps_ = static_cast<std::uint64_t>(std::llround(end_ / dt_));
 }
 
-double Simulation::revolution() const noexcept { return period_ > 0.0 ? time() / period_ : 0.0; }
+double Simulation::revolution() const noexcept { return period_ > 0.0 ? test_time() / period_ : 0.0; }
 
 void Simulation::step() {
   move_walls();
@@ -182,7 +211,15 @@ bool Simulation::advance(const std::function<bool()>& watch) {
 }
 
 void Simulation::move_walls() {
-  for (std::size_t w = 0; w < walls_.size(); ++w) poses_[w] = walls_[w].pose_at(time());
+  double instant = time();
+  // An increment stands for the distance it slides: where in it the balance is struck differs from one
+  // revolution to the next (by the golden ratio, which spreads the places evenly), or else every revolution
+  // would wear the same spots.
+  if (setup_.run.method == Method::quasi_static && period_ > 0.0) {
+    const double places = std::floor(time() / period_) * (std::numbers::phi - 1.0);
+    instant += (places - std::floor(places)) * dt_;
+  }
+  for (std::size_t w = 0; w < walls_.size(); ++w) poses_[w] = walls_[w].pose_at(instant);
 }
 
 void Simulation::find_contacts() {

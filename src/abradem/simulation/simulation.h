@@ -80,7 +80,12 @@ class Simulation {
   [[nodiscard]] std::uint64_t total_steps() const noexcept { return total_steps_; }
   [[nodiscard]] std::uint64_t steps_per_output() const noexcept { return steps_per_output_; }
   /// Turns (cycles) of the first wall that turns (oscillates); 0 where none does.
+  /// They are revolutions of the test: with an acceleration more than the wall has turned.
   [[nodiscard]] double revolution() const noexcept;
+  /// Revolutions of the test that one modelled revolution stands for; 1 where wear is not accelerated.
+  [[nodiscard]] double acceleration() const noexcept { return acceleration_; }
+  /// Time of the test [s]: time() times the acceleration.
+  [[nodiscard]] double test_time() const noexcept { return time() * acceleration_; }
   [[nodiscard]] bool turns() const noexcept { return period_ > 0.0; }
 
   [[nodiscard]] const Setup& setup() const noexcept { return setup_; }
@@ -119,6 +124,7 @@ class Simulation {
 
   void add_particles();
   void choose_time_step();
+  [[nodiscard]] double choose_increment() const;
   void find_pair_properties();
   [[nodiscard]] const contact::PairProperties& pair(int a, int b) const {
     return pairs_[static_cast<std::size_t>(a) * setup_.materials.size() + static_cast<std::size_t>(b)];
@@ -150,7 +156,7 @@ class Simulation {
   std::vector<SphereWall> sphere_walls_;  // particle-major
   std::vector<SpherePair> sphere_pairs_;
   std::vector<double> law_, paper_;  // per wall [m^3]
-  double dt_ = 0.0, period_ = 0.0, end_ = 0.0;
+  double dt_ = 0.0, period_ = 0.0, end_ = 0.0, acceleration_ = 1.0;
   std::uint64_t steps_ = 0, total_steps_ = 0, steps_per_output_ = 1;
   std::function<void(const Simulation&)> observer_;
   std::vector<double> stiffness_ratio_;  // quasi_static: of each particle's contact, to Hertz's
