@@ -3,7 +3,7 @@
 set(ABRADEM_CASE_TEMPLATES
     pin-on-disc ${PROJECT_SOURCE_DIR}/cases/pin-on-disc.toml
     plate ${PROJECT_SOURCE_DIR}/cases/templates/plate.toml
-    laboratory ${PROJECT_SOURCE_DIR}/cases/templates/laboratory.toml)
+    laboratory ${PROJECT_SOURCE_DIR}/cases/laboratory.toml)
 
 set(ABRADEM_TEMPLATE_ENTRIES "")
 while(ABRADEM_CASE_TEMPLATES)

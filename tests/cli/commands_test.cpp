@@ -184,8 +184,7 @@ TEST(Run, AFolderThatCannotBeUsedIsNamed) {
 TEST(New, WritesTheTemplatesThatAreInTheTree) {
   EXPECT_EQ(run_program("new pin-on-disc").out, read_file(kExample));
   EXPECT_EQ(run_program("new plate").out, read_file(ABRADEM_SOURCE_DIR "/cases/templates/plate.toml"));
-  EXPECT_EQ(run_program("new laboratory").out,
-            read_file(ABRADEM_SOURCE_DIR "/cases/templates/laboratory.toml"));
+  EXPECT_EQ(run_program("new laboratory").out, read_file(ABRADEM_SOURCE_DIR "/cases/laboratory.toml"));
 }
 
 TEST(New, NeverOverwritesUnlessForced) {

@@ -112,6 +112,36 @@ TEST(WholeRun, FillsTheFolderAsDocumented) {
   EXPECT_EQ(run["results"]["law_volume_mm3"], table(folder, "revolutions").column("law_volume_mm3").back());
 }
 
+TEST(WholeRun, ChoosesTheAccelerationAndSaysWhatItCost) {
+  const ScratchFolder folder;
+  const std::string coarse =
+      "run " + kExample + kCoarse +
+      " --set run.method=quasi_static --set output.contours=36 --set run.end='40 rev'"
+      " --set output.frames=none --set 'wear.\"iron_ore/mild_steel\".wear_coefficient=2e-11'";
+  const Outcome chosen = run_program(coarse +
+                                         " --set 'wear.\"iron_ore/mild_steel\".acceleration=auto'"
+                                         " --set 'wear.\"iron_ore/mild_steel\".tolerance=2 %' -o auto",
+                                     folder.path());
+  ASSERT_EQ(chosen.exit_code, 0) << chosen.err;
+  EXPECT_TRUE(contains(chosen.err, "error accepted"));
+  const json record = manifest(folder.path() / "auto");
+  const json& acceleration = record["acceleration"];
+  EXPECT_EQ(acceleration["chosen"], "auto");
+  const double factor = acceleration["factor"];
+  EXPECT_GT(factor, 1.0);
+  EXPECT_DOUBLE_EQ(factor * acceleration["modelled_revolutions"].get<double>(), 40.0);
+  EXPECT_LT(acceleration["profile_error"].get<double>(), 0.02);
+  EXPECT_GE(acceleration["trials"].size(), 1u);
+  EXPECT_NEAR(record["results"]["revolution"].get<double>(), 40.0, 1e-9);
+  EXPECT_TRUE(contains(read_file(folder.path() / "auto" / "report.html"), "of the test per modelled one"));
+
+  // The resolved case holds the number, and gives the same bits.
+  const Outcome again = run_program("run auto/case.resolved.toml -o again", folder.path());
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(manifest(folder.path() / "again")["state_hash"], record["state_hash"]);
+  EXPECT_DOUBLE_EQ(manifest(folder.path() / "again")["acceleration"]["factor"].get<double>(), factor);
+}
+
 TEST(WholeRun, WritesTheFramesThatAreAskedFor) {
   const ScratchFolder scratch;
   const auto frames = [&](const std::string& which) {

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "support/cases.h"
 #include "support/grooves.h"
 #include "support/table.h"
@@ -74,6 +76,62 @@ INSTANTIATE_TEST_SUITE_P(AtATenthOfAMillimetre, HalfSpace,
                                          Case{"SOFT", 12, 12, 0.1e-3, 0.01, 0.05},
                                          Case{"STIFF", 1, 12, 0.1e-3, 0.03, 0.18},
                                          Case{"STIFF", 12, 12, 0.1e-3, 0.02, 0.06}));
+
+// ---- the laboratory test, unscaled: 1302 passes with increments of two contact half-widths
+// ------------------------------------------------------------------------
+
+struct Long {
+  const char* pin;
+  double size;                        // of the triangles [m]
+  double depth, profile, increments;  // bounds: against the reference; between increments [-]
+};
+
+void PrintTo(const Long& c, std::ostream* out) { *out << c.pin << " h=" << 1e3 * c.size << " mm"; }
+
+class WholeLaboratoryTest : public testing::TestWithParam<Long> {};
+
+TEST_P(WholeLaboratoryTest, HasTheGrooveOfTheReferenceWhateverTheIncrement) {
+  const Long c = GetParam();
+  const bool stiff = std::string(c.pin) == "STIFF";
+  PinOnPlate pin;
+  pin.shear_modulus = stiff ? 30e9 : 0.1e9;
+  pin.passes = 1302;
+  pin.wear_per_pass = 6.28e-13 * 1302.5 / pin.passes;
+  pin.size = c.size;
+  pin.amplitude = stiff ? 0.8e-3 : 1.2e-3;
+  pin.half_width = stiff ? 0.4e-3 : 0.6e-3;
+  pin.margin = stiff ? 0.2e-3 : 0.6e-3;
+  const Table profile(stiff ? "halfspace_profile_stiff.csv" : "halfspace_profile_soft.csv");
+  std::vector<double> y = profile.numbers("y_mm"), sink = profile.numbers("ii_lab1302.5");
+  for (double& v : y) v *= 1e-3;
+  for (double& v : sink) v *= 1e-6;
+
+  const double a = stiff ? 0.057788e-3 : 0.349796e-3;  // Hertz, as the tables say [m]
+  const auto groove = [&](double increment) {
+    pin.increment = increment;
+    simulation::Simulation run(pin.setup());
+    run.advance();
+    EXPECT_LT(run.ledger().residual, 1e-9);
+    const double taken = 2.0 * std::numbers::pi * pin.amplitude * run.time_step();
+    EXPECT_NEAR(taken / (increment > 0.0 ? increment : 2.0 * a), 1.0, 0.01);
+    return measure_plate(run, stiff ? 0.2e-3 : 0.4e-3, y);
+  };
+  const Groove chosen = groove(0.0), reference = groove(stiff ? 0.8 * a : 0.2 * a);
+  const std::string name = fmt::format("{} 1302.5 revolutions, h = {} mm: ", c.pin, 1e3 * c.size);
+  const double depth = chosen.depth / sink.front() - 1.0, l2 = relative_l2(chosen.profile, sink);
+  const double between = relative_l2(chosen.profile, reference.profile);
+  measured(name + "depth error", depth, c.depth);
+  measured(name + "profile, L2", l2, c.profile);
+  measured(name + "profile, chosen increment against a shorter one", between, c.increments);
+  EXPECT_LT(std::abs(depth), c.depth);
+  EXPECT_LT(l2, c.profile);
+  EXPECT_LT(between, c.increments);
+  EXPECT_LT(chosen.depth_sd, reference.depth_sd + 2e-3 * sink.front());  // no ripples
+}
+
+INSTANTIATE_TEST_SUITE_P(Increments, WholeLaboratoryTest,
+                         testing::Values(Long{"SOFT", 0.05e-3, 0.01, 0.02, 1e-3},
+                                         Long{"STIFF", 0.05e-3, 0.01, 0.02, 1e-3}));
 
 TEST(HalfSpace, OverlapFootprintIsTooShallowForASoftPin) {
   const auto depth = [](simulation::Footprint footprint) {

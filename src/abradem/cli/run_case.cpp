@@ -14,10 +14,12 @@
 #include "abradem/cli/stop_signals.h"
 #include "abradem/core/error.h"
 #include "abradem/io/atomic_file.h"
+#include "abradem/io/case_file.h"
 #include "abradem/io/placement.h"
 #include "abradem/io/run_record.h"
 #include "abradem/io/run_recorder.h"
 #include "abradem/report/report.h"
+#include "abradem/study/acceleration.h"
 
 namespace abradem::cli {
 
@@ -142,6 +144,27 @@ void try_to_record_failure(io::RunRecord& record, const RunOptions& options, con
   }
 }
 
+/// Finds how many revolutions stand for those of the test, and says so.
+study::AccelerationChoice choose_acceleration(const simulation::Setup& setup, RunLog& log) {
+  const study::AccelerationChoice choice = study::choose_acceleration(
+      setup, MeshLoader(setup), [] { return !StopSignals::requested(); },
+      [&](const study::AccelerationTrial& trial) {
+        log.line(trial.difference
+                     ? fmt::format("acceleration: {:g} revolutions, profile differs by {:.3g} % from {:g}",
+                                   trial.revolutions, 100.0 * *trial.difference, 0.5 * trial.revolutions)
+                     : fmt::format("acceleration: {:g} revolutions cannot be told from {:g}, which went "
+                                   "unphysical",
+                                   trial.revolutions, 0.5 * trial.revolutions));
+      });
+  log.line(choice.factor > 1.0
+               ? fmt::format("acceleration: {:g} revolutions, each for {:.4g} of the test; error accepted "
+                             "{:.2g} % of the profile, tolerance {:.2g} %",
+                             choice.revolutions, choice.factor, 100.0 * choice.error,
+                             100.0 * choice.tolerance)
+               : std::string("acceleration: none keeps to the tolerance; every revolution is modelled"));
+  return choice;
+}
+
 }  // namespace
 
 int run_case(const RunOptions& options) {
@@ -149,18 +172,27 @@ int run_case(const RunOptions& options) {
   if (options.threads > 0) omp_set_num_threads(options.threads);
   // Everything that can be refused is refused before the folder exists.
   const std::uint64_t inputs_hash = io::inputs_hash(options.setup);
-  Simulation run(options.setup, MeshLoader(options.setup));
+  simulation::Setup setup = options.setup;
+  const bool choose = study::wants_acceleration(setup);
+  if (choose) setup = study::accelerated(setup, 1.0);
+  Simulation run(setup, MeshLoader(setup));
   io::refuse_misplaced_particles(run);
 
   const StopSignals signals;
   OutputFolder folder(options.output, options.force);
-  io::write_file_atomically(options.output / "case.resolved.toml", options.resolved_text);
   io::write_file_atomically(options.output / "case.toml", options.case_text);
   RunLog log(options.output / "run.log", options.quiet);
   log.line(fmt::format("{} -> {}", options.case_path.string(), options.output.string()));
+  io::RunRecord record;
+  if (choose) {
+    record.acceleration = choose_acceleration(options.setup, log);
+    setup = study::accelerated(setup, record.acceleration->factor);
+    run = Simulation(setup, MeshLoader(setup));
+  }
+  io::write_file_atomically(options.output / "case.resolved.toml",
+                            choose ? io::resolved_case(setup) : options.resolved_text);
   announce(run, log);
 
-  io::RunRecord record;
   record.threads = omp_get_max_threads();
   record.inputs_hash = inputs_hash;
   report_limits(run.limits(), log, nullptr);
@@ -172,7 +204,7 @@ int run_case(const RunOptions& options) {
     recorder.close();
     complete_record(record, run, recorder, log);
     record.wall_seconds = seconds_since(start);
-    json = io::to_json(record, options.setup);
+    json = io::to_json(record, setup);
     io::write_file_atomically(options.output / "run.json", json);
     if (options.report) report::write_report(options.output);
   } catch (const IoError& error) {

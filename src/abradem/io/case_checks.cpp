@@ -61,6 +61,7 @@ class Checker {
     for (const WallSetup& wall : setup_.walls) check_wall(wall);
     for (const ParticleSetup& particle : setup_.particles) check_particle(particle);
     check_run();
+    check_acceleration();
     check_measurement();
     check_published();
   }
@@ -389,6 +390,28 @@ class Checker {
     if (std::ranges::all_of(setup_.walls,
                             [](const WallSetup& w) { return w.motion.kind == MotionKind::none; }))
       error("run.method", "method = \"quasi_static\" steps along a sliding distance, but no wall moves");
+  }
+
+  void check_acceleration() {
+    if (!good("wear")) return;
+    for (const WearSetup& w : setup_.wear) {
+      const std::string path = path_of("wear", w.abrader + "/" + w.worn);
+      const WearSetup& first = setup_.wear.front();
+      if (w.acceleration != first.acceleration)
+        error(path + ".acceleration",
+              fmt::format("every wear pair must have the same acceleration, and [{}] has another: they "
+                          "shorten one and the same run",
+                          path_of("wear", first.abrader + "/" + first.worn)));
+      else if (w.acceleration.automatic && w.tolerance != first.tolerance)
+        error(path + ".tolerance", fmt::format("every wear pair must have the same tolerance, and [{}] has "
+                                               "another: one acceleration is chosen for the run",
+                                               path_of("wear", first.abrader + "/" + first.worn)));
+      if (!w.acceleration.automatic && w.acceleration.factor == 1.0) continue;
+      if (!counts_revolutions(setup_) && good("wall"))
+        error(path + ".acceleration",
+              "acceleration leaves out revolutions, but no wall has a motion of kind rotation or "
+              "oscillation");
+    }
   }
 
   void check_measurement() {

@@ -52,6 +52,8 @@ Json value_schema(const Row& row) {
     case Kind::force_down:
     case Kind::along_axis:
       return {{"anyOf", Json::array({quantity(row), vector_of(quantity(row))})}};
+    case Kind::acceleration:
+      return {{"anyOf", Json::array({quantity(row)["anyOf"][0], {{"const", "auto"}}})}};
     case Kind::changes:
       return {{"type", "object"}, {"minProperties", 1}};
     case Kind::variations:

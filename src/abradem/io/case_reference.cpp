@@ -56,6 +56,8 @@ std::string value_cell(const Row& row) {
       return "a time [s] or revolutions [rev]";
     case Kind::time_step:
       return "a time [s] or a share of the Rayleigh time [%]";
+    case Kind::acceleration:
+      return "number [-] or `\"auto\"`";
     case Kind::changes:
       return "table: key of the case = value";
     case Kind::variations:

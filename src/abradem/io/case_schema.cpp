@@ -159,6 +159,9 @@ std::optional<std::string> format_value(const Row& row, const Slot& slot) {
                           std::erase(percent, ' ');
                           return fmt::format("\"{} rayleigh\"", percent);
                         },
+                        [](const simulation::Acceleration* a) -> Text {
+                          return a->automatic ? "\"auto\"" : core::format_number(a->factor);
+                        },
                         [&](const ChoiceSlot& choice) -> Text {
                           return toml_string(row.choices[static_cast<std::size_t>(choice.get())]);
                         },

@@ -40,25 +40,26 @@ struct ChoiceSlot {
 /// The member a row fills. monostate: nothing to store, the key has one allowed value.
 using Slot = std::variant<std::monostate, std::string*, double*, std::optional<double>*, Vec3*, int*,
                           std::uint64_t*, simulation::Duration*, simulation::TimeStep*, ChoiceSlot,
-                          std::vector<simulation::VariedKey>*>;
+                          std::vector<simulation::VariedKey>*, simulation::Acceleration*>;
 
 enum class Kind {
-  text,         ///< any text
-  file,         ///< path of a file, relative to the folder of the case
-  material,     ///< name of a [material.…]
-  choice,       ///< one of Row::choices
-  version,      ///< of the case format
-  quantity,     ///< a number of the dimension of Row::unit
-  integer,      ///< a whole number
-  vector,       ///< three quantities
-  direction,    ///< three plain numbers, not all zero; stored with length 1
-  force_down,   ///< a vector, or one quantity along -z
-  along_axis,   ///< a vector, or one quantity along the axis of the motion
-  duration,     ///< a time or a number of revolutions
-  time_step,    ///< a time or a percentage of the Rayleigh time
-  length_unit,  ///< a unit of length ("mm")
-  changes,      ///< keys of the case, each with a value
-  variations,   ///< keys of the case, each with a list of values
+  text,          ///< any text
+  file,          ///< path of a file, relative to the folder of the case
+  material,      ///< name of a [material.…]
+  choice,        ///< one of Row::choices
+  version,       ///< of the case format
+  quantity,      ///< a number of the dimension of Row::unit
+  integer,       ///< a whole number
+  vector,        ///< three quantities
+  direction,     ///< three plain numbers, not all zero; stored with length 1
+  force_down,    ///< a vector, or one quantity along -z
+  along_axis,    ///< a vector, or one quantity along the axis of the motion
+  duration,      ///< a time or a number of revolutions
+  time_step,     ///< a time or a percentage of the Rayleigh time
+  acceleration,  ///< a number, or "auto"
+  length_unit,   ///< a unit of length ("mm")
+  changes,       ///< keys of the case, each with a value
+  variations,    ///< keys of the case, each with a list of values
 };
 
 enum class Need { required, has_default, optional };

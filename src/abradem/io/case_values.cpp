@@ -79,6 +79,8 @@ class Reader {
         return store(duration(value));
       case Kind::time_step:
         return store(time_step(value));
+      case Kind::acceleration:
+        return store(acceleration(value));
       case Kind::length_unit:
         return store(limited(value, length_unit(value)));
       case Kind::changes:
@@ -333,6 +335,17 @@ class Reader {
     }
     if (!good) return std::nullopt;
     return keys;
+  }
+
+  std::optional<simulation::Acceleration> acceleration(const Value& value) {
+    if (value.type == Value::Type::text && value.text == "auto")
+      return simulation::Acceleration{.factor = 1.0, .automatic = true};
+    if (!is_number(value))
+      return wrong(value, fmt::format("expected a number such as {} or \"auto\", got {}", row_.example,
+                                      written(value)));
+    const auto factor = limited(value, quantity(value));
+    if (!factor) return std::nullopt;
+    return simulation::Acceleration{.factor = *factor, .automatic = false};
   }
 
   std::optional<double> length_unit(const Value& value) {

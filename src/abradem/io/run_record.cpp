@@ -71,6 +71,37 @@ void add_file(core::StateHash& hash, const std::string& path) {
   } while (file);
 }
 
+double acceleration_of(const simulation::Setup& setup) {
+  return setup.wear.empty() ? 1.0 : setup.wear.front().acceleration.factor;
+}
+
+/// Number of revolutions modelled for those of the test, and how it was chosen.
+Json acceleration_json(const RunRecord& record, double factor) {
+  Json json = {{"factor", factor}};
+  if (record.acceleration) {
+    const study::AccelerationChoice& choice = *record.acceleration;
+    json["chosen"] = "auto";
+    json["modelled_revolutions"] = choice.revolutions;
+    json["tolerance"] = choice.tolerance;
+    json["profile_error"] = choice.error;
+    json["trials"] = Json::array();
+    for (const study::AccelerationTrial& trial : choice.trials)
+      json["trials"].push_back(
+          {{"revolutions", trial.revolutions},
+           {"difference", trial.difference ? number(*trial.difference) : Json(nullptr)}});
+  }
+  return json;
+}
+
+/// What the report shows of it.
+std::string acceleration_text(const RunRecord& record, double factor) {
+  std::string text = fmt::format("{:.4g} revolutions of the test per modelled one", factor);
+  if (record.acceleration)
+    text += fmt::format("; chosen: half as many change the profile by {:.2g} %, tolerance {:.2g} %",
+                        100.0 * record.acceleration->error, 100.0 * record.acceleration->tolerance);
+  return text;
+}
+
 }  // namespace
 
 std::uint64_t inputs_hash(const simulation::Setup& setup) {
@@ -115,6 +146,10 @@ std::string to_json(const RunRecord& record, const simulation::Setup& setup) {
         {{"name", limit.name}, {"value", number(limit.value)}, {"limit", limit.limit}, {"ok", limit.ok()}});
   json["limits"] = limits;
   json["warnings"] = record.warnings;
+  if (const double factor = acceleration_of(setup); factor != 1.0 || record.acceleration) {
+    json["acceleration"] = acceleration_json(record, factor);
+    json["setup"] = {{"Acceleration", acceleration_text(record, factor)}};
+  }
   if (setup.measurement) json["measurement"] = measurement_json(*setup.measurement);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -9,6 +9,7 @@
 
 #include "abradem/analysis/revolution_row.h"
 #include "abradem/simulation/simulation.h"
+#include "abradem/study/acceleration.h"
 
 namespace abradem::io {
 
@@ -27,6 +28,7 @@ struct RunRecord {
   std::optional<analysis::RevolutionRow> last;
   std::vector<simulation::StabilityLimit> limits;
   std::vector<std::string> warnings;
+  std::optional<study::AccelerationChoice> acceleration;  ///< where the case left it to be chosen
 };
 
 /// What the tables' column `revolution` counts: "revolution" or "cycle" of the first wall that turns or

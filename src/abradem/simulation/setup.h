@@ -41,7 +41,7 @@ struct Acceleration {
 struct WearSetup {
   std::string abrader, worn;      ///< the first wears the second
   double wear_coefficient = 0.0;  ///< alpha_s = k / H_s [1/Pa], Archard
-  Acceleration acceleration;
+  Acceleration acceleration = {};
   double tolerance = 0.01;  ///< acceleration automatic: of the groove's profile, relative L2 [-]
   bool operator==(const WearSetup&) const = default;
 };

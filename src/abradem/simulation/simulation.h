@@ -87,6 +87,8 @@ class Simulation {
   /// Time of the test [s]: time() times the acceleration.
   [[nodiscard]] double test_time() const noexcept { return time() * acceleration_; }
   [[nodiscard]] bool turns() const noexcept { return period_ > 0.0; }
+  /// Time of one of them [s]; 0 where nothing turns or oscillates.
+  [[nodiscard]] double period() const noexcept { return period_; }
 
   [[nodiscard]] const Setup& setup() const noexcept { return setup_; }
   [[nodiscard]] const Particles& particles() const noexcept { return particles_; }

@@ -488,7 +488,31 @@ INSTANTIATE_TEST_SUITE_P(
         BadExample{"wall.disc.motion={kind=\"spin\"}", "expected one of \"none\", \"rotation\""},
         BadExample{"measurement.depth.low=\"1 mm\"",
                    "the smallest value, 1 mm, is above the largest, 0.014 mm"},
-        BadExample{"wall.disc.mesh={shape=\"plane\"}", "an analytic plane, which has no nodes to move"}));
+        BadExample{"wall.disc.mesh={shape=\"plane\"}", "an analytic plane, which has no nodes to move"},
+        BadExample{"wear.\"iron_ore/mild_steel\".acceleration=0.5", "'acceleration': must be >= 1, got 0.5"},
+        BadExample{"wear.\"iron_ore/mild_steel\".acceleration=automatic",
+                   "expected a number such as 108.5 or \"auto\", got \"automatic\""},
+        BadExample{"wear.\"iron_ore/mild_steel\".tolerance=0", "'tolerance': must be >"}));
+
+TEST(Acceleration, IsANumberOrLeftToTheProgram) {
+  const std::string key = "wear.\"iron_ore/mild_steel\".acceleration=";
+  EXPECT_EQ(example().wear[0].acceleration, (simulation::Acceleration{1.0, false}));
+  EXPECT_EQ(example({key + "108.5"}).wear[0].acceleration, (simulation::Acceleration{108.5, false}));
+  const CaseSetup automatic = example({key + "auto", "wear.\"iron_ore/mild_steel\".tolerance=2 %"});
+  EXPECT_EQ(automatic.wear[0].acceleration, (simulation::Acceleration{1.0, true}));
+  EXPECT_DOUBLE_EQ(automatic.wear[0].tolerance, 0.02);
+  EXPECT_EQ(read(resolved_case(automatic)), automatic);
+}
+
+TEST(Acceleration, IsOneForAllPairsAndNeedsSomethingThatTurns) {
+  const std::string second = ",\"mild_steel/mild_steel\"={wear_coefficient=1e-13,acceleration=3}}";
+  EXPECT_TRUE(contains(complaint_about_example(
+                           "wear={\"iron_ore/mild_steel\"={wear_coefficient=1e-11,acceleration=2}" + second),
+                       "every wear pair must have the same acceleration"));
+  EXPECT_TRUE(contains(complaint(kSmall + std::string("[wear.\"ore/ore\"]\nwear_coefficient = 1e-12\n"
+                                                      "acceleration = 2\n")),
+                       "acceleration leaves out revolutions, but no wall has a motion"));
+}
 
 TEST(Combination, APairMayBeGivenOnlyOnce) {
   const std::string text = std::string(R"(schema = 1

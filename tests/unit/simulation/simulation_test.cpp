@@ -85,8 +85,38 @@ TEST(Run, StopsWhereTheOverlapIsNoLongerSmall) {
 TEST(Run, StopsWhereOneUpdateIsTooDeepForTheMesh) {
   test::PinOnDisc pin = small_case();
   pin.wear_coefficient = 1e-6;
-  Simulation run(pin.setup());
+  simulation::Setup s = pin.setup();
+  s.run.increment = 0.07e-3;  // the program's own is short enough even for that
+  Simulation run(s);
   EXPECT_THROW(run.advance(), SimulationError);
+}
+
+/// Sliding distance per step that the program chooses, in half-widths of the contact.
+double chosen_share(test::PinOnDisc pin, double revolutions) {
+  pin.revolutions = revolutions;
+  const Simulation run(pin.setup());
+  const contact::PairProperties pair =
+      material::effective_moduli({4850.0, pin.shear_modulus, 0.24}, {7932.0, 78e9, 0.30});
+  const double a = contact::contact_radius(test::PinOnDisc::kRadius,
+                                           contact::hertz_overlap(pair, test::PinOnDisc::kRadius, 5.0));
+  return run.time_step() * std::numbers::pi * pin.track / a;
+}
+
+TEST(Run, TakesLongerIncrementsTheMoreRevolutionsShareTheWear) {
+  test::PinOnDisc pin = small_case();
+  pin.wear_coefficient = 6.28e-13;
+  EXPECT_NEAR(chosen_share(pin, 1.0), 0.2, 0.01);
+  EXPECT_NEAR(chosen_share(pin, 12.0), 0.2, 0.01);
+  EXPECT_NEAR(chosen_share(pin, 96.0), 0.8, 0.02);      // 8 times as many: 4 times as long
+  EXPECT_NEAR(chosen_share(pin, 1302.0), 2.0, 0.05);    // the contact's length at most
+  pin.contact = simulation::ContactRule::per_triangle;  // its contacts are as small as the elements
+  EXPECT_NEAR(chosen_share(pin, 1302.0), 0.2, 0.01);
+}
+
+TEST(Run, TakesIncrementsThatWearNoMoreThanTheContactsApproach) {
+  test::PinOnDisc pin = small_case();
+  pin.wear_coefficient = 25.0 / 0.26285e9;  // alpha E* = 25
+  EXPECT_NEAR(chosen_share(pin, 12.0), 0.1, 0.005);
 }
 
 TEST(Run, TakesAWholeNumberOfStepsPerOutput) {
