@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <deque>
 #include <fstream>
 #include <map>
@@ -62,8 +63,15 @@ class FolderLock {
   enum class Kind { shared, exclusive };
   FolderLock(const fs::path& folder, Kind kind) : handle_(open(folder.c_str(), O_RDONLY | O_DIRECTORY)) {
     if (handle_ < 0) return;
-    if (flock(handle_, (kind == Kind::shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-      return;
+    // The children of one that was killed need a moment to end.
+    constexpr int kTries = 60;
+    constexpr auto kPause = std::chrono::milliseconds(50);
+    const int operation = (kind == Kind::shared ? LOCK_SH : LOCK_EX) | LOCK_NB;
+    for (int i = 0; i < kTries; ++i) {
+      if (flock(handle_, operation) == 0 || errno != EWOULDBLOCK) return;
+      if (StopSignals::requested()) break;
+      std::this_thread::sleep_for(kPause);
+    }
     close(handle_);
     throw InputError(fmt::format("another abradem works on '{}'; wait for it to end", folder.string()));
   }
@@ -141,6 +149,11 @@ Found look_at(const PreparedJob& prepared, const fs::path& folder, bool repeat_f
   found.settled = found.result.status == JobStatus::completed ||
                   (found.result.status == JobStatus::failed && fails_again(run.exit_code) && !repeat_failed);
   return found;
+}
+
+/// Ended by someone's wish, before it could write a record.
+bool is_stop(int exit_code) {
+  return exit_code == 128 + SIGINT || exit_code == 128 + SIGTERM || exit_code == 128 + SIGHUP;
 }
 
 /// The last lines a child said, without what is no error.
@@ -283,7 +296,7 @@ void Batch::take_in(const ChildProcesses::Ended& ended) {
     found.result.status = JobStatus::failed;
     found.result.exit_code = static_cast<int>(ExitCode::input);
     found.result.message = "the case file or a mesh changed while the runs were going on; start again";
-  } else if (ended.exit_code != 0 && found.result.exit_code != ended.exit_code && !stopping_) {
+  } else if (ended.exit_code != 0 && found.result.exit_code != ended.exit_code && !is_stop(ended.exit_code)) {
     if (ended.exit_code > 128)
       message = fmt::format("ended by signal {}{}", ended.exit_code - 128,
                             ended.exit_code - 128 == SIGKILL ? " (out of memory?)" : "");
@@ -345,7 +358,7 @@ void Batch::report_progress(bool at_once) {
   std::string text =
       fmt::format("{} of {} runs done, {} running{}", jobs_.size() - (to_run_ - ended_), jobs_.size(),
                   children_.running(), failed > 0 ? fmt::format(", {} failed", failed) : "");
-  if (ended_ > 0 && ended_ < to_run_)
+  if (ended_ > 0 && ended_ < to_run_ && !stopping_)
     text +=
         fmt::format(", {} left", clock_time(seconds_since(start_) * static_cast<double>(to_run_ - ended_) /
                                             static_cast<double>(ended_)));

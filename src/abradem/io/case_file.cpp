@@ -230,13 +230,17 @@ std::string read_text(const fs::path& path) {
                                  (path / "case.toml").string()));
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(fmt::format("case file '{}' cannot be opened: {}", name, std::strerror(errno)));
-  constexpr std::size_t kLargest = std::size_t{16}
-                                   << 20;  // a case is a page of text; this stops a mesh or /dev/zero
-  std::string text(kLargest + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  constexpr std::size_t kLargest = std::size_t{16} << 20;  // a page of text; stops a mesh or /dev/zero
+  constexpr std::size_t kBlock = 1 << 14;
+  std::string text;
+  while (file && text.size() <= kLargest) {
+    const std::size_t old = text.size();
+    text.resize(old + kBlock);
+    file.read(text.data() + old, kBlock);
+    text.resize(old + static_cast<std::size_t>(file.gcount()));
+  }
   if (file.bad())
     throw InputError(fmt::format("case file '{}' cannot be read: {}", name, std::strerror(errno)));
-  text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kLargest)
     throw InputError(fmt::format("'{}' is larger than 16 MB; it is no case file", name));
   return text;
