@@ -69,7 +69,8 @@ void write_summary(const SweepArguments& arguments, const fs::path& output,
                                .seconds = 0.0};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const JobResult& job = result.jobs[i];
-    runs.push_back({points[i].name, std::string(name_of(job.status)), points[i].values, job.folder});
+    runs.push_back(
+        {points[i].name, std::string(name_of(job.status)), points[i].values, job.folder, job.message});
     summary.seconds += job.seconds;
   }
   summary.command = fmt::format("abradem {} ({}): abradem sweep {}", core::version(), core::commit(),

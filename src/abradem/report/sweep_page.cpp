@@ -43,6 +43,23 @@ bool varies(const SweepColumn& column) {
   return high - low > kSame * std::max(std::abs(low), std::abs(high));
 }
 
+/// For legends: the last word of a key, "size" of "wall.disc.mesh.size [mm]", and its unit, " mm".
+std::pair<std::string, std::string> short_name(const SweepColumn& factor) {
+  const std::size_t bracket = factor.title.rfind(" [");
+  const std::string key = factor.title.substr(0, bracket);
+  const std::string word = key.substr(key.rfind('.') + 1);
+  if (bracket == std::string::npos) return {word, ""};
+  return {word, fmt::format(" {}", factor.title.substr(bracket + 2, factor.title.size() - bracket - 3))};
+}
+
+/// Positive, and over more than two decades: lines would hide all but the largest.
+bool spans_decades(const std::vector<double>& y) {
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
+  for (const double value : y)
+    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  return low > 0.0 && high > 100.0 * low;
+}
+
 /// Positions of a factor's values along an axis: the numbers themselves, or 0, 1, … for words, in the order
 /// in which they first appear.
 struct Positions {
@@ -77,6 +94,7 @@ Series level_means(const std::vector<double>& x, const std::vector<double>& y) {
     ++count;
   }
   Series means{.kind = Series::Kind::line, .name = "mean"};
+  means.colour = 1;
   const bool repeated = std::ranges::any_of(levels, [](const auto& l) { return l.second.second > 1; });
   if (!repeated || levels.size() < 2) return means;
   for (const auto& [at, level] : levels) {
@@ -123,6 +141,7 @@ class EffectPanel {
     for (const double value : result.number) y_.push_back(shown.scale * value);
     panel_.x = positions_.axis;
     panel_.y.title = shown.axis;
+    panel_.y.log = spans_decades(y_);
   }
 
   Panel make() {
@@ -148,9 +167,10 @@ class EffectPanel {
     if (levels.size() + own_levels.size() > kColours ||
         levels.size() * own_levels.size() != table_.names.size())
       return false;
+    const auto [word, unit] = short_name(other);
     const std::size_t first = factor_ == 0 ? 0 : own_levels.size();
     for (std::size_t l = 0; l < levels.size(); ++l)
-      panel_.series.push_back(curve(fmt::format("{}: {}", other.title, levels[l].first), levels[l].second,
+      panel_.series.push_back(curve(fmt::format("{}: {}{}", word, levels[l].first, unit), levels[l].second,
                                     positions_.x, y_, static_cast<int>(first + l)));
     return true;
   }
@@ -224,9 +244,16 @@ Page sweep_page(const SweepSummary& summary, const SweepTable& table) {
                 {"time of all runs", fmt::format("{:.3g} s", summary.seconds)}};
   PageSection effects{.title = "Main effects"};
   for (Figure& figure : main_effects(table)) effects.items.emplace_back(std::move(figure));
-  if (effects.items.empty()) effects.items.emplace_back(Paragraph{"No result differs from run to run."});
+  if (effects.items.empty())
+    effects.items.emplace_back(Paragraph{count("completed") < 2
+                                             ? "Fewer than two runs came to their end: nothing to compare."
+                                             : "No result differs from run to run."});
   page.sections.push_back(std::move(effects));
   page.sections.push_back({.title = "Runs", .items = {runs_table(table)}});
+  DataTable failed{.id = "failed", .title = "Runs that failed", .columns = {"run", "why"}};
+  for (std::size_t r = 0; r < table.names.size(); ++r)
+    if (table.status[r] == "failed") failed.rows.push_back({table.names[r], table.messages[r]});
+  if (!failed.rows.empty()) page.sections.back().items.emplace_back(std::move(failed));
   if (!summary.command.empty())
     page.sections.push_back({.title = "How it was made", .items = {Paragraph{summary.command}}});
   return page;

@@ -107,6 +107,7 @@ SweepTable make_sweep_table(const std::vector<std::string>& keys, const std::vec
   for (const SweepRun& run : runs) {
     table.names.push_back(run.name);
     table.status.push_back(run.status);
+    table.messages.push_back(run.message);
     const std::map<std::string, double> results = results_of(run.folder);
     for (SweepColumn& column : table.results) {
       const auto found = results.find(column.title);

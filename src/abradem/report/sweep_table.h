@@ -15,6 +15,7 @@ struct SweepRun {
   std::string name, status;
   std::vector<std::string> values;  ///< of each factor, as written
   std::filesystem::path folder;
+  std::string message = {};  ///< why it failed
 };
 
 /// A column of text, and of numbers where every field is one.
@@ -26,7 +27,7 @@ struct SweepColumn {
 };
 
 struct SweepTable {
-  std::vector<std::string> names, status;
+  std::vector<std::string> names, status, messages;
   std::vector<SweepColumn> factors;
   std::vector<SweepColumn> results;  ///< the last row of each run's revolutions.csv, kappa, steps
 };

@@ -39,7 +39,7 @@ TEST(SweepTable, LeavesWordsVectorsAndMixedKindsAsWritten) {
   EXPECT_EQ(table.factors[2].text, (std::vector<std::string>{"1 rev", "2 s"}));
   const std::string csv = to_csv(table);
   EXPECT_TRUE(csv.starts_with("name,status,wall.disc.contact,particle.pin.load,run.end,revolution,time_s,"));
-  EXPECT_NE(csv.find("\n0001,missing,patch,\"[0, 0, -5]\",1 rev,nan,nan,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\n0001,completed,patch,\"[0, 0, -5]\",1 rev,nan,nan,"), std::string::npos) << csv;
   EXPECT_TRUE(csv.ends_with(",nan\n"));
 }
 
@@ -86,6 +86,23 @@ TEST(SweepPage, SaysWhenNothingDiffers) {
   const SweepTable table = with_volumes(table_of({"a"}, {{"1"}, {"2"}}), {1.0, 1.0});
   EXPECT_TRUE(main_effects(table).empty());
   EXPECT_NE(page_html(sweep_page({}, table)).find("No result differs"), std::string::npos);
+}
+
+TEST(SweepPage, NamesFailuresAndShowsDecades) {
+  std::vector<SweepRun> runs;
+  for (const char* alpha : {"1e-12 1/Pa", "1e-11 1/Pa", "1e-10 1/Pa", "1 1/Pa"})
+    runs.push_back({alpha, "completed", {alpha}, "/none", ""});
+  runs.back().status = "failed";
+  runs.back().message = "the wear is too deep";
+  SweepTable table = make_sweep_table({"wear.\"a/b\".wear_coefficient"}, runs);
+  table = with_volumes(std::move(table), {1e-3, 1e-2, 1.0, std::nan("")});
+  const std::vector<Figure> figures = main_effects(table);
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_TRUE(figures[0].panels[0].y.log);
+  EXPECT_EQ(figures[0].panels[0].x.title, "wear.a/b.wear_coefficient [1/Pa]");
+  const std::string page = page_html(sweep_page({}, table));
+  EXPECT_NE(page.find("the wear is too deep"), std::string::npos);
+  EXPECT_NE(page.find("3 of 4 runs completed, 1 failed"), std::string::npos);
 }
 
 }  // namespace
