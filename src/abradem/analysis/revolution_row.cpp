@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "abradem/analysis/normality.h"
+
 namespace abradem::analysis {
 
 RevolutionRow revolution_row(double revolution, double time, const WearVolumes& volumes,

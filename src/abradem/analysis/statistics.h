@@ -24,6 +24,9 @@ struct Summary {
   double max = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// @throws InputError naming the first value that is not finite
+void check_finite(std::span<const double> values);
+
 /// Mean and sd in two passes, quartiles of type 7.   @throws InputError when a value is not finite
 [[nodiscard]] Summary summarise(std::span<const double> values);
 
@@ -35,32 +38,6 @@ struct Summary {
 /// Indices, ascending, of the values further than 1.5 interquartile ranges outside the quartiles. [tukey1977]
 /// @throws InputError when a value is not finite
 [[nodiscard]] std::vector<std::size_t> tukey_outliers(std::span<const double> values);
-
-/// Chi-squared test of the hypothesis that a sample is normal, with mean and sd taken from the sample.
-/// The statistic's law under the hypothesis lies between chi-squared with bins - 3 and with bins - 1 degrees
-/// of freedom, for the parameters were fitted to the values and not to the counts [chernoff1954]; so two
-/// p-values bound the true one. All p are NaN, and df 0, when the test cannot be made: fewer than 20 values,
-/// or a scatter of no more than kRoundOffScatter.
-struct ChiSquaredNormality {
-  double statistic = std::numeric_limits<double>::quiet_NaN();
-  int bins = 0;                                         ///< equally probable under the fitted normal
-  int df = 0;                                           ///< bins - 3
-  double p = std::numeric_limits<double>::quiet_NaN();  ///< with df; the lower bound, the one in the tables
-  double p_upper = std::numeric_limits<double>::quiet_NaN();  ///< with df + 2
-};
-
-/// Relative to the largest |value|: a smaller sd is taken for arithmetic noise of equal values. Widths
-/// measured 22 mm from the axis carry about 1e-14 of it; a depth of 10 um would have to scatter by less than
-/// 0.01 pm.
-inline constexpr double kRoundOffScatter = 1e-9;
-
-/// Bins of the test for n values: 2 n^(2/5) to the nearest, but no fewer than 5 values expected in each.
-[[nodiscard]] int normality_bins(std::int64_t n) noexcept;
-
-/// @throws InputError when a value is not finite
-[[nodiscard]] ChiSquaredNormality chi_squared_normality(std::span<const double> values);
-/// As above with the number of bins given.   @throws InputError also when bins < 4
-[[nodiscard]] ChiSquaredNormality chi_squared_normality(std::span<const double> values, int bins);
 
 /// Mean, sd, smallest and largest of a stream, in one pass and without storing it; Welford's update, which
 /// does not lose digits where the scatter is small beside the mean.   [welford1962]; merge: [chan1983]

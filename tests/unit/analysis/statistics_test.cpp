@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -15,14 +14,6 @@ namespace abradem::analysis {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// The values that split the normal distribution into n equal parts, at their middles.
-std::vector<double> normal_scores(int n, double mean, double sd) {
-  const boost::math::normal normal(mean, sd);
-  std::vector<double> values;
-  for (int i = 0; i < n; ++i) values.push_back(quantile(normal, (i + 0.5) / n));
-  return values;
-}
 
 TEST(Summary, OfAHandExample) {
   const std::vector<double> values{9.0, 2.0, 4.0, 4.0, 5.0, 4.0, 7.0, 5.0};  // mean 5, squares 32
@@ -75,78 +66,10 @@ TEST(TukeyOutliers, LieBeyondTheFences) {
   EXPECT_TRUE(tukey_outliers({}).empty());
 }
 
-TEST(ChiSquaredNormality, TakesBinsByTheRule) {
-  EXPECT_EQ(normality_bins(360), 21);   // 2 * 360^0.4 = 21.06
-  EXPECT_EQ(normality_bins(1000), 32);  // 31.70
-  EXPECT_EQ(normality_bins(30), 6);     // 7.80, but 5 in each
-  EXPECT_EQ(normality_bins(0), 0);
-}
-
-TEST(ChiSquaredNormality, OfAHandExampleIsExact) {
-  // Mean 0, squares 19 * 1, so sd = 1: ten values of +a and ten of -a with a = sqrt(19 / 20) = 0.975.
-  // Quartiles of the normal are at +-0.674: bins hold 10, 0, 0, 10 where 5 are expected each.
-  std::vector<double> values(10, std::sqrt(19.0 / 20.0));
-  values.insert(values.end(), 10, -std::sqrt(19.0 / 20.0));
-  const ChiSquaredNormality test = chi_squared_normality(values);
-  EXPECT_EQ(test.bins, 4);
-  EXPECT_EQ(test.df, 1);
-  EXPECT_DOUBLE_EQ(test.statistic, 20.0);
-  // chi-squared with 1 df: P = erfc(sqrt(x/2)); with 3 df: erfc(sqrt(x/2)) + sqrt(2x/pi) exp(-x/2).
-  const double p1 = std::erfc(std::sqrt(10.0)), p3 = p1 + std::sqrt(40.0 / std::acos(-1.0)) * std::exp(-10.0);
-  EXPECT_NEAR(test.p / p1, 1.0, 1e-12);
-  EXPECT_NEAR(test.p_upper / p3, 1.0, 1e-12);
-}
-
-TEST(ChiSquaredNormality, PassesNormalQuantilesWhereverTheyLie) {
-  for (const double sd : {1.0, 3e-7, 0.2e-6}) {
-    const ChiSquaredNormality test = chi_squared_normality(normal_scores(360, 10e-6, sd));
-    EXPECT_EQ(test.bins, 21);
-    EXPECT_EQ(test.df, 18);
-    EXPECT_GT(test.p, 0.999);
-    EXPECT_GE(test.p_upper, test.p);
-  }
-}
-
-TEST(ChiSquaredNormality, RefusesUniformAndSkewedSamples) {
-  std::vector<double> uniform, skewed;
-  for (int i = 0; i < 360; ++i) {
-    uniform.push_back(1e-5 * (i + 0.5) / 360);
-    skewed.push_back(-1e-6 * std::log((i + 0.5) / 360));
-  }
-  const ChiSquaredNormality flat = chi_squared_normality(uniform);
-  EXPECT_LT(flat.p_upper, 0.01);
-  EXPECT_LT(flat.p, flat.p_upper);
-  EXPECT_LT(chi_squared_normality(skewed).p_upper, 1e-10);
-}
-
-TEST(ChiSquaredNormality, DoesNotDependOnUnits) {
-  std::vector<double> metres, micrometres;
-  for (int i = 0; i < 200; ++i) {
-    micrometres.push_back(10.0 + std::sin(1.0 * i * i));
-    metres.push_back(1e-6 * micrometres.back());
-  }
-  EXPECT_NEAR(chi_squared_normality(metres).p, chi_squared_normality(micrometres).p, 1e-12);
-}
-
-TEST(ChiSquaredNormality, GivesNoVerdictWhereThereIsNone) {
-  const auto no_verdict = [](const ChiSquaredNormality& t) {
-    return std::isnan(t.p) && std::isnan(t.p_upper) && std::isnan(t.statistic) && t.df == 0;
-  };
-  EXPECT_TRUE(no_verdict(chi_squared_normality({})));
-  EXPECT_TRUE(no_verdict(chi_squared_normality(normal_scores(19, 0, 1))));
-  EXPECT_FALSE(no_verdict(chi_squared_normality(normal_scores(20, 0, 1))));
-  EXPECT_TRUE(no_verdict(chi_squared_normality(std::vector<double>(360, 1e-5))));
-  EXPECT_TRUE(no_verdict(chi_squared_normality(std::vector<double>(360, 0.0))));
-  EXPECT_TRUE(no_verdict(chi_squared_normality(normal_scores(360, 1e-5, 1e-17))));
-  EXPECT_TRUE(no_verdict(chi_squared_normality(std::vector{1.0}, 4)));
-  EXPECT_THROW((void)chi_squared_normality(normal_scores(40, 0, 1), 3), InputError);
-}
-
 TEST(Statistics, RefuseValuesThatAreNotFinite) {
   const std::vector<double> bad{1.0, 2.0, kNan};
   EXPECT_THROW((void)summarise(bad), InputError);
   EXPECT_THROW((void)tukey_outliers(bad), InputError);
-  EXPECT_THROW((void)chi_squared_normality(bad), InputError);
   try {
     (void)summarise(bad);
     FAIL();
