@@ -47,8 +47,11 @@ Correlation correlation(std::span<const double> values, Ends ends) {
   }
   c.effective_count = n / c.time;
 
-  for (std::size_t k = 1; k < c.r.size() && c.independent_step == 0; ++k)
-    if (std::abs(c.r[k]) <= c.noise_band) c.independent_step = static_cast<int>(k);
+  double squares = 1.0;  // 1 + 2 sum r_j^2 below k
+  for (std::size_t k = 1; k < c.r.size() && c.independent_step == 0; ++k) {
+    if (std::abs(c.r[k]) <= c.noise_band * std::sqrt(squares)) c.independent_step = static_cast<int>(k);
+    squares += 2.0 * c.r[k] * c.r[k];
+  }
   return c;
 }
 

@@ -28,7 +28,9 @@ struct Correlation {
   double time =
       std::numeric_limits<double>::quiet_NaN();  ///< 1 + 2 sum r_k while r_k > 0: values per independent one
   double effective_count = std::numeric_limits<double>::quiet_NaN();  ///< n / time, at most n
-  int independent_step = 0;  ///< the first lag with r_k inside the noise band; 0 when there is none
+  /// First lag with |r_k| <= 1.96 sqrt((1 + 2 sum_{j<k} r_j^2)/n), the band of an r_k beyond the correlation
+  /// [bartlett1946]; 0 when there is none.
+  int independent_step = 0;
 };
 /// @throws InputError when a value is not finite
 [[nodiscard]] Correlation correlation(std::span<const double> values, Ends ends);

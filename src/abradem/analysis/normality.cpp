@@ -143,7 +143,7 @@ AndersonDarling anderson_darling_normality(std::span<const double> values) {
             log_standard_normal_cdf((s.mean - x[x.size() - 1 - i]) / s.sd));
   test.statistic = -n - sum / n;
   const double a = test.adjusted = test.statistic * (1.0 + 0.75 / n + 2.25 / (n * n));
-  // The last formula bends upwards for large a: beyond 10 it is held at its value there.
+  // Beyond 10, outside what the formulas were fitted to, p is held at its value there.
   if (a <= 0.2)
     test.p = 1.0 - std::exp(-13.436 + 101.14 * a - 223.73 * a * a);
   else if (a <= 0.34)

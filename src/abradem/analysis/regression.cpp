@@ -8,6 +8,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "abradem/analysis/normality.h"
 #include "abradem/core/error.h"
 
 namespace abradem::analysis {
@@ -97,7 +98,8 @@ LinearModel fit_linear_model(std::span<const double> x, int columns, std::span<c
 
   const double squares = residuals.squaredNorm();
   const double total = with_constant ? (Y.array() - Y.mean()).matrix().squaredNorm() : Y.squaredNorm();
-  if (total > 0.0) m.r_squared = 1.0 - squares / total;
+  // Values equal to round-off have no variation that could be explained.
+  if (std::sqrt(total) > kRoundOffScatter * Y.norm()) m.r_squared = 1.0 - squares / total;
   if (m.df > 0) {
     m.residual_sd = std::sqrt(squares / m.df);
     m.t = quantile(boost::math::students_t(m.df), 0.5 + 0.5 * confidence);
@@ -254,8 +256,8 @@ IncrementFit fit_increments(std::span<const double> n, std::span<const double> s
       total += from_mean * from_mean;
       squares += m.residuals[i] * m.residuals[i];
     }
-    // Equal rates to round-off have no variation that could be explained.
-    if (std::sqrt(total / static_cast<double>(y.size())) > 1e-9 * std::abs(mean_rate))
+    if (std::sqrt(total) >
+        kRoundOffScatter * Eigen::Map<const Eigen::VectorXd>(y.data(), std::ssize(y)).norm())
       fit.r_squared = 1.0 - squares / total;
   }
   fit.model.r_squared = fit.r_squared;
