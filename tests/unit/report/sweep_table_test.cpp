@@ -14,7 +14,7 @@ SweepTable table_of(const std::vector<std::string>& keys,
                     const std::vector<std::vector<std::string>>& values) {
   std::vector<SweepRun> runs;
   for (const auto& v : values)
-    runs.push_back({"000" + std::to_string(runs.size() + 1), "missing", v, "/none"});
+    runs.push_back({"000" + std::to_string(runs.size() + 1), "completed", v, "/none"});
   return make_sweep_table(keys, runs);
 }
 
