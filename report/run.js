@@ -239,7 +239,7 @@ function forceFigure({ force }, { thinned }) {
                        overlap: ['overlap [µm]', curve('overlap_um', 'overlap', 'µm', '--s3')],
                        contacts: ['contacts [-]', curve('contacts', 'contacts', '[-]', '--s4')] }[controls.quantity.value];
     return { traces: quantity.slice(1), layout: { xaxis: axis('time [s]'), yaxis: axis(quantity[0], controls.quantity.value === 'contacts' ? { rangemode: 'tozero' } : {}) },
-             caption: `${{ force: 'Normal and tangential force between the loaded particle and the wall', overlap: 'Overlap of the loaded particle and the wall', contacts: 'Contacts between the loaded particle and the wall' }[controls.quantity.value]}, as recorded` + (thinned.force ? '; thinned for this page, tables/force.csv has all.' : '.') };
+             caption: `${ { force: 'Normal and tangential force between the loaded particle and the wall', overlap: 'Overlap of the loaded particle and the wall', contacts: 'Contacts between the loaded particle and the wall' }[controls.quantity.value]}, as recorded` + (thinned.force ? '; thinned for this page, tables/force.csv has all.' : '.') };
   }, 'force.csv', () => force.csv);
 }
 
