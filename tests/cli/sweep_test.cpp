@@ -314,6 +314,19 @@ TEST(Sweep, KilledGoesOnWhereItStoppedWithTheSameTable) {
   EXPECT_EQ(summary(other.path() / "result"), table);
 }
 
+TEST(Sweep, TwoProcessesMakeOneRunOnce) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch.path().string();
+  const std::string one = kSweep + " -o '" + folder + "/result' --quiet --json --case 2";
+  const Outcome both = run_program(one + " >'" + folder + "/first' & '" ABRADEM_PROGRAM "' " + one + " >'" +
+                                   folder + "/second'; wait");
+  ASSERT_EQ(both.exit_code, 0) << both.err;
+  // Each prints the record of the one run; a second one would have taken another time.
+  const std::string record = read_file(scratch.path() / "result" / "runs" / "0002" / "run.json");
+  EXPECT_EQ(read_file(scratch.path() / "first"), record);
+  EXPECT_EQ(read_file(scratch.path() / "second"), record);
+}
+
 TEST(Sweep, AFullDiskEndsItWithFiveAndRoomLetsItGoOn) {
   const ScratchFolder scratch;
   // A limit on the size of files stands for a full disk: a run's wear.csv or the page does not fit.

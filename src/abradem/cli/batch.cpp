@@ -177,6 +177,7 @@ class Batch {
 
  private:
   void prepare_folder();
+  void drop_settled();
   void start_next();
   void take_in(const ChildProcesses::Ended& ended);
   void record_failure(std::size_t job, int exit_code, const std::string& message) const;
@@ -248,6 +249,16 @@ void Batch::prepare_folder() {
   if (!options_.only || !fs::exists(options_.output / kManifest, error)) write_manifest("running");
 }
 
+/// What another process finished while this one waited for the folder.
+void Batch::drop_settled() {
+  std::erase_if(waiting_, [&](std::size_t j) {
+    Found found = look_at(jobs_[j], folder_of(j), options_.force);
+    if (found.settled) result_of(j) = std::move(found.result);
+    return found.settled;
+  });
+  to_run_ = waiting_.size();
+}
+
 void Batch::start_next() {
   const std::size_t j = waiting_.front();
   waiting_.pop_front();
@@ -292,16 +303,18 @@ void Batch::take_in(const ChildProcesses::Ended& ended) {
     return;
   }
   Found found = look_at(jobs_[j], folder_of(j), false);
+  const auto fail = [&](ExitCode code, const std::string& why) {
+    record_failure(j, static_cast<int>(code), why);
+    found.result = {name, folder_of(j), JobStatus::failed, static_cast<int>(code), why, 0.0};
+  };
   if (found.other_inputs) {
-    found.result.status = JobStatus::failed;
-    found.result.exit_code = static_cast<int>(ExitCode::input);
-    found.result.message = "the case file or a mesh changed while the runs were going on; start again";
+    // What it found is no result of this sweep.
+    fail(ExitCode::io, "the case file or a mesh changed while the runs were going on");
   } else if (ended.exit_code != 0 && found.result.exit_code != ended.exit_code && !is_stop(ended.exit_code)) {
     if (ended.exit_code > 128)
       message = fmt::format("ended by signal {}{}", ended.exit_code - 128,
                             ended.exit_code - 128 == SIGKILL ? " (out of memory?)" : "");
-    record_failure(j, ended.exit_code, message);
-    found.result = {name, folder_of(j), JobStatus::failed, ended.exit_code, message, 0.0};
+    fail(static_cast<ExitCode>(ended.exit_code), message);
   }
   result_of(j) = std::move(found.result);
   const JobResult& result = result_of(j);
@@ -356,8 +369,9 @@ void Batch::report_progress(bool at_once) {
   share_results();
   const std::size_t failed = result_.count(JobStatus::failed);
   std::string text =
-      fmt::format("{} of {} runs done, {} running{}", jobs_.size() - (to_run_ - ended_), jobs_.size(),
-                  children_.running(), failed > 0 ? fmt::format(", {} failed", failed) : "");
+      fmt::format("{} of {} runs done, {} running", result_.count(JobStatus::completed) + failed,
+                  jobs_.size(), children_.running());
+  if (failed > 0) text += fmt::format(", {} failed", failed);
   if (ended_ > 0 && ended_ < to_run_ && !stopping_)
     text +=
         fmt::format(", {} left", clock_time(seconds_since(start_) * static_cast<double>(to_run_ - ended_) /
@@ -389,6 +403,7 @@ BatchResult Batch::run() {
   prepare_folder();
   std::optional<FolderLock> own_lock;
   if (options_.only) own_lock.emplace(folder_of(*options_.only), FolderLock::Kind::exclusive);
+  drop_settled();
   // Processes that share the folder do not share its log; where nothing is done it stays as it is.
   log_.emplace(options_.only || to_run_ == 0 ? fs::path("/dev/null") : options_.output / "batch.log",
                options_.quiet);
@@ -448,7 +463,7 @@ int BatchResult::exit_code() const noexcept {
   if (interrupted) return static_cast<int>(ExitCode::interrupted);
   for (const JobResult& job : jobs)
     if (job.status == JobStatus::failed) return job.exit_code;
-  return static_cast<int>(ExitCode::ok);
+  return static_cast<int>(count(JobStatus::interrupted) > 0 ? ExitCode::interrupted : ExitCode::ok);
 }
 
 std::size_t BatchResult::count(JobStatus status) const noexcept {

@@ -61,7 +61,8 @@ struct BatchResult {
   std::vector<JobResult> jobs;  ///< in the order given
   int started = 0;              ///< runs made just now; the others were there
   bool interrupted = false;
-  /// 130 when interrupted, else that of the first failed job, else 0.
+  /// 130 when interrupted, else that of the first failed job, else 130 when a run was stopped on its own,
+  /// else 0.
   [[nodiscard]] int exit_code() const noexcept;
   [[nodiscard]] std::size_t count(JobStatus status) const noexcept;
 };
