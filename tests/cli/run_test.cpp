@@ -53,7 +53,8 @@ const std::map<std::string, std::vector<std::string>> kTables{
     {"revolutions", kRevolutionColumns},
     {"contours", {"revolution", "angle_deg", "depth_mm", "width_mm", "area_mm2", "displaced_width_mm"}},
     {"profiles", {"revolution", "angle_deg", "radius_mm", "height_mm"}},
-    {"force", {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts",
+    {"force",
+     {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts",
       "normal_along_N", "normal_across_N", "normal_sum_N"}}};
 
 io::CsvTable table(const fs::path& folder, const std::string& name) {
@@ -430,12 +431,12 @@ TEST(FullDisk, LaterKeepsWhatWasWritten) {
   // Room for frames and tables, none for the report (770 kB).
   const Outcome outcome = run_program(kRun + " --quiet -o result", scratch.path(), "ulimit -f 1000");
   EXPECT_EQ(outcome.exit_code, 5);
-  EXPECT_TRUE(contains(outcome.err, "result/report.html: cannot be written"));
+  EXPECT_TRUE(contains(outcome.err, "cannot write 'result/report.html'"));
   EXPECT_EQ(occurrences(outcome.err, "\n"), 1U) << outcome.err;
   const json run = manifest(folder);
   EXPECT_EQ(run["status"], "failed");
   EXPECT_EQ(run["exit_code"], 5);
-  EXPECT_TRUE(contains(run["error"].get<std::string>(), "report.html: cannot be written"));
+  EXPECT_TRUE(contains(run["error"].get<std::string>(), "cannot write 'result/report.html'"));
   EXPECT_FALSE(fs::exists(folder / "report.html"));
   EXPECT_EQ(rows(table(folder, "revolutions")), 2U);
   // With room again, the report is made from what is there.

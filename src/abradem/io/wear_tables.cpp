@@ -32,14 +32,16 @@ std::array<double, 18> revolution_values(const analysis::RevolutionRow& r) {
 
 WearTables::WearTables(const std::filesystem::path& folder)
     : revolutions_(folder / "revolutions.csv", revolution_columns()),
-      contours_(folder / "contours.csv", {"revolution", "angle_deg", "depth_mm", "width_mm", "area_mm2", "displaced_width_mm"}),
+      contours_(folder / "contours.csv",
+                {"revolution", "angle_deg", "depth_mm", "width_mm", "area_mm2", "displaced_width_mm"}),
       profiles_(folder / "profiles.csv", {"revolution", "angle_deg", "radius_mm", "height_mm"}) {}
 
 void WearTables::add(const analysis::RevolutionRow& r, std::span<const analysis::Contour> contours) {
   revolutions_.row(revolution_values(r));
   for (const analysis::Contour& c : contours) {
     const double angle = kDegrees * c.angle;
-    contours_.row({r.revolution, angle, kMm * c.depth, kMm * c.width, kMm2 * c.area, kMm * c.displaced_width});
+    contours_.row(
+        {r.revolution, angle, kMm * c.depth, kMm * c.width, kMm2 * c.area, kMm * c.displaced_width});
     for (const analysis::ProfilePoint& p : c.profile)
       profiles_.row({r.revolution, angle, kMm * p.radius, kMm * p.height});
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/interpolators/pchip.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <exception>
@@ -25,6 +26,16 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// volume of the paper's rule is no smooth function of the coefficient and jumps by about 1e-4 on its own.
 constexpr double kConservingTolerance = 1e-7, kPaperTolerance = 5e-4;
 constexpr int kCorrections = 4;
+
+/// As passes(), along a curve that keeps the shape of its points (PCHIP through them and the origin; Fritsch
+/// and Butland, doi:10.1137/0905021).
+double passes_smoothly(std::span<const double> x, std::span<const double> y, double level) {
+  constexpr std::size_t kFewest = 4;  // points that a PCHIP needs
+  std::vector<double> from{0.0}, to{0.0};
+  for (std::size_t i = 0; i < x.size() && y[i] > from.back(); ++i) from.push_back(y[i]), to.push_back(x[i]);
+  if (from.size() < kFewest || level <= 0.0 || level > from.back()) return passes(x, y, level);
+  return boost::math::interpolators::pchip(std::move(from), std::move(to))(level);
+}
 
 /// Does the work of several trials at once, each with its own state. The first failure by index is thrown.
 template <typename Work>
@@ -336,11 +347,14 @@ class Calibrator {
     // Far enough also where the rate per alpha n falls to a quarter of the known run's on the way.
     const double far = std::ceil(4.0 * high_ / (rate * alpha));
     Setup s = with(alpha, far);
-    s.output.every = {far < 50.0 ? 0.1 : std::ceil(far / 400.0), true};
+    // Whole revolutions, as a case has them: other rows mean other increments, which the paper's measure
+    // feels.
+    s.output.every = {std::max(1.0, std::ceil(far / 400.0)), true};
     const Outcome o = trial(s, {.enough = [this](const Milestone& m) { return volume(m.volumes) >= high_; }});
     std::vector<double> n, v;
     for (const Milestone& m : o.history) n.push_back(m.revolutions), v.push_back(volume(m.volumes));
-    row.revolutions = {passes(n, v, result_.target.mean), passes(n, v, low_), passes(n, v, high_)};
+    const auto needed = [&](double level) { return passes_smoothly(n, v, level); };
+    row.revolutions = {needed(result_.target.mean), needed(low_), needed(high_)};
     row.scaling_factor = factor(row.revolutions.value);
     if (std::isnan(row.revolutions.high)) row.failure = o.failure;
     return row;

@@ -49,9 +49,8 @@ TEST(WearTables, HoldEveryColumnInItsUnit) {
     EXPECT_DOUBLE_EQ(revolutions.values[c], expected[c].second) << expected[c].first;
   }
   const CsvTable contours = read_csv(folder / "contours.csv");
-  EXPECT_EQ(contours.columns,
-            (std::vector<std::string>{"revolution", "angle_deg", "depth_mm", "width_mm", "area_mm2",
-                                      "displaced_width_mm"}));
+  EXPECT_EQ(contours.columns, (std::vector<std::string>{"revolution", "angle_deg", "depth_mm", "width_mm",
+                                                        "area_mm2", "displaced_width_mm"}));
   EXPECT_DOUBLE_EQ(contours.column("angle_deg").at(0), 90.0);
   EXPECT_DOUBLE_EQ(contours.column("depth_mm").at(0), 0.01);
   EXPECT_DOUBLE_EQ(contours.column("width_mm").at(0), 0.7);
