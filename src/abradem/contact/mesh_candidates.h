@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "abradem/geometry/triangle_grid.h"
@@ -79,20 +78,21 @@ class MeshCandidates {
  private:
   void gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
               const CandidateSkin& skin);
-  void order_outwards(double furthest);
+  void order_outwards();
   void link_nodes();
   void place_mean_plane(const Vec3& c, double reach) noexcept;
   void fetch_positions(const geometry::TriangleMesh& mesh) noexcept;
-  void measure_triangles() noexcept;
+  void measure_triangles();
 
   bool gathered_ = false, nearly_flat_ = false;
   Vec3 built_at_, built_axis_;
   CandidateSkin built_skin_;
   double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0;
-  std::vector<std::pair<double, Index>> found_;  // scratch: distance from the way, triangle
-  std::vector<Index> ordered_;                   // scratch
-  std::vector<std::int32_t> local_;              // scratch: local number of a mesh vertex, or -1
+  std::vector<Index> near_;          // scratch: triangles of the cells near the way
+  std::vector<double> across_;       // scratch: their distances from the way, or -1: out of reach
+  std::vector<double> around_;       // scratch: of measure_nodes
+  std::vector<std::int32_t> local_;  // scratch: local number of a mesh vertex, or -1
 };
 
 }  // namespace abradem::contact
