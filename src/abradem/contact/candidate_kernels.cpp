@@ -10,8 +10,6 @@ namespace abradem::contact::kernels {
 
 namespace {
 
-constexpr std::size_t kLanes = MeshCandidates::kLanes;
-
 ABRADEM_INLINE double larger(double a, double b) { return a > b ? a : b; }
 ABRADEM_INLINE double smaller(double a, double b) { return a < b ? a : b; }
 
@@ -60,16 +58,11 @@ ABRADEM_DISPATCH TriangleSums sum_up(const MeshCandidates& candidates) noexcept 
     longest2 = larger(longest2, longest[t]);
     shortest2 = smaller(shortest2, smaller(smaller(l01[t], l12[t]), l20[t]));
   }
-  core::Lanes sx{}, sy{}, sz{};
-  const auto lanes = [](const std::vector<double>& array, std::size_t t) {
-    return reinterpret_cast<const core::Lanes*>(array.data() + t);
-  };
-  for (std::size_t t = 0; t < candidates.padded_triangle_count(); t += kLanes) {
-    sx += *lanes(candidates.ax, t);
-    sy += *lanes(candidates.ay, t);
-    sz += *lanes(candidates.az, t);
-  }
-  return {longest2, shortest2, {ABRADEM_SUM_LANES(sx), ABRADEM_SUM_LANES(sy), ABRADEM_SUM_LANES(sz)}};
+  const std::size_t padded = candidates.padded_triangle_count();
+  return {longest2,
+          shortest2,
+          {core::sum_lanes(candidates.ax.data(), padded), core::sum_lanes(candidates.ay.data(), padded),
+           core::sum_lanes(candidates.az.data(), padded)}};
 }
 
 }  // namespace
@@ -109,6 +102,28 @@ ABRADEM_DISPATCH double least_facing(const MeshCandidates& candidates, const Vec
     least =
         smaller(least, ax[t] * direction.x + ay[t] * direction.y + az[t] * direction.z - cosine * area[t]);
   return least;
+}
+
+ABRADEM_DISPATCH double centroid_motion(const MeshCandidates& candidates, std::span<const double> excess,
+                                        const double* __restrict dx, const double* __restrict dy,
+                                        const double* __restrict dz, std::vector<double>& scratch) {
+  const std::size_t count = candidates.padded_triangle_count();
+  if (scratch.size() < count) scratch.resize(count);
+  const std::int32_t* __restrict v0 = candidates.v0.data();
+  const std::int32_t* __restrict v1 = candidates.v1.data();
+  const std::int32_t* __restrict v2 = candidates.v2.data();
+  const double* __restrict e = excess.data();
+  const double* __restrict area = candidates.area.data();
+  double* __restrict swept = scratch.data();
+#pragma omp simd
+  for (std::size_t t = 0; t < count; ++t) {
+    const double x = dx[v0[t]] + dx[v1[t]] + dx[v2[t]];
+    const double y = dy[v0[t]] + dy[v1[t]] + dy[v2[t]];
+    const double z = dz[v0[t]] + dz[v1[t]] + dz[v2[t]];
+    const double highest = larger(larger(e[v0[t]], e[v1[t]]), e[v2[t]]);
+    swept[t] = highest > 0.0 ? std::sqrt(x * x + y * y + z * z) * area[t] * (1.0 / 3.0) : 0.0;
+  }
+  return core::sum_lanes(swept, count);
 }
 
 }  // namespace abradem::contact::kernels

@@ -43,10 +43,7 @@ ABRADEM_INLINE double nodes(std::size_t padded_count, const double* __restrict e
                             const double* __restrict area, double* __restrict load, const Weight weight) {
   for (std::size_t i = 0; i < padded_count; ++i)
     load[i] = area[i] * weight.of_depth(shallow_depth(excess[i]));
-  core::Lanes sum{};
-  const auto lanes = [](const double* p) { return reinterpret_cast<const core::Lanes*>(p); };
-  for (std::size_t i = 0; i < padded_count; i += MeshCandidates::kLanes) sum += *lanes(load + i);
-  return ABRADEM_SUM_LANES(sum);
+  return core::sum_lanes(load, padded_count);
 }
 
 ABRADEM_DISPATCH double load_nodes(std::size_t padded_count, const double* __restrict excess,
