@@ -280,8 +280,8 @@ void SphereWall::add_centroid_motion(const Wall& wall) {
 /// Does the ball hold a corner of the candidate triangle?
 bool SphereWall::inside(std::size_t t) const noexcept {
   const auto excess = patches_.node_excess();
-  return excess[at(candidates_.v0[t])] > 0.0 || excess[at(candidates_.v1[t])] > 0.0 ||
-         excess[at(candidates_.v2[t])] > 0.0;
+  const auto in = [&](std::int32_t v) { return excess[at(v)] > 0.0; };
+  return in(candidates_.v0[t]) | in(candidates_.v1[t]) | in(candidates_.v2[t]);
 }
 
 int SphereWall::elements(const Wall& wall) const {
