@@ -69,12 +69,14 @@ struct Sweep {
             {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y), std::min(a.high.z, b.high.z)}};
   }
 
-  /// Can something be met that lies within `radius` of `centre` across the axis and `half_depth` along it?
-  [[nodiscard]] bool may_meet(const Vec3& centre, double radius, double half_depth) const noexcept {
+  /// Can something be met in the box centre +- half, worn by up to `displaced`?
+  [[nodiscard]] bool may_meet(const Vec3& centre, const Vec3& half, double displaced) const noexcept {
     const Vec3 offset = centre - c;
     const double along = dot(offset, axis);
     const double across = norm(beside(skin.slide, offset - along * axis));
-    const double a = std::max(0.0, across - radius - skin.tangential);
+    const double half_depth =
+        std::abs(half.x * axis.x) + std::abs(half.y * axis.y) + std::abs(half.z * axis.z) + displaced;
+    const double a = std::max(0.0, across - norm(half) - displaced - skin.tangential);
     const double b = std::max(0.0, std::abs(along) - half_depth - skin.normal);
     return a * a + b * b < reach * reach;
   }
@@ -161,9 +163,7 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   const auto [low, high] = sweep.box(surface);
   surface.grid.visit_near(
       low, high,
-      [&](const Vec3& centre, double r) {
-        return sweep.may_meet(centre, r + surface.displaced, r + surface.displaced);
-      },
+      [&](const Vec3& centre, const Vec3& half) { return sweep.may_meet(centre, half, surface.displaced); },
       [&](Index t) { near_.push_back(t); });
   across_.resize(near_.size());
   meet_triangles(sweep, mesh, near_, across_.data());

@@ -198,12 +198,12 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
 /// What fell to a node was lost by the triangles around it, each by its part of the node's area.
 void SphereWall::book_elements(Wall& wall) {
   if (node_pending_.empty()) return;
+  for (std::size_t i = 0; i < candidates_.node_count(); ++i) node_pending_[i] /= candidates_.node_area[i];
   for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
-    double volume = 0.0;
-    for (const std::int32_t v : {candidates_.v0[t], candidates_.v1[t], candidates_.v2[t]})
-      volume += node_pending_[at(v)] / candidates_.node_area[at(v)];
-    if (volume > 0.0)
-      wall.surface().book_element(candidates_.triangle[t], volume * candidates_.area[t] / 3.0);
+    const double depths = node_pending_[at(candidates_.v0[t])] + node_pending_[at(candidates_.v1[t])] +
+                          node_pending_[at(candidates_.v2[t])];
+    if (depths > 0.0)
+      wall.surface().book_element(candidates_.triangle[t], depths * candidates_.area[t] / 3.0);
   }
   node_pending_.clear();
 }
