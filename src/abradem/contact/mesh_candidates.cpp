@@ -15,6 +15,8 @@ namespace {
 
 using geometry::TriangleMesh;
 
+constexpr double kShapeTolerance = 5e-3;  // of an edge: wear since the triangles were measured
+
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 ABRADEM_INLINE double larger(double a, double b) { return a > b ? a : b; }
@@ -141,9 +143,9 @@ void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec
     fetch_positions(surface.mesh);
     // Positions are always the mesh's own; areas and lengths may lag behind by half a per cent of an edge,
     // which changes a normal force by about 1e-5.
-    constexpr double kShapeTolerance = 5e-3;
     if (surface.odometer - odometer_at_measure_ > kShapeTolerance * shortest_) {
       measure_triangles();
+      bound_depth();
       odometer_at_measure_ = surface.odometer;
     }
     revision_ = surface.revision;
@@ -193,6 +195,7 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   measure_triangles();
   link_nodes();
   place_mean_plane(c, reach);
+  bound_depth();
 
   gathered_ = true;
   built_at_ = c;
@@ -250,6 +253,14 @@ void MeshCandidates::place_mean_plane(const Vec3& c, double reach) noexcept {
     sum += w * offset;
   }
   mean_point = weight > 0.0 ? c + sum / weight : c;
+}
+
+/// Holds until the triangles are measured again.
+void MeshCandidates::bound_depth() noexcept {
+  double lowest = 0.0;
+  for (std::size_t i = 0; i < node.size(); ++i)
+    lowest = std::min(lowest, dot(node_position(i) - mean_point, mean_normal));
+  below_plane = kShapeTolerance * shortest_ - lowest;
 }
 
 void MeshCandidates::fetch_positions(const TriangleMesh& mesh) noexcept {

@@ -181,7 +181,7 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
         surface.deposit_element(candidates_.triangle[t], scale * w);
   } else if (shares.nodal) {
     node_pending_.resize(candidates_.x.size());
-    for (std::size_t i = 0; i < candidates_.node_count(); ++i) {
+    for (std::size_t i = 0; i < shares.at_node.size(); ++i) {
       if (!(shares.at_node[i] > 0.0)) continue;
       const double volume = scale * shares.at_node[i];
       node_pending_[i] += volume;

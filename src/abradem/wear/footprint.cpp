@@ -85,7 +85,7 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
   shares_.nodal =
       edges >= kEdgesPerReach && field.deepest < kShallow * field.R && !by_elements && mask.empty();
   if (shares_.nodal) {
-    at_node_.resize(candidates.x.size());
+    at_node_.resize(MeshCandidates::count_above(field.excess, cut));
     shares_.total = load_nodes(at_node_.size(), field.excess.data(), candidates.node_area.data(),
                                at_node_.data(), weight);
     shares_.at_node = at_node_;
