@@ -155,7 +155,6 @@ void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec
 void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
                             const CandidateSkin& skin) {
   const TriangleMesh& mesh = surface.mesh;
-  if (local_.size() != mesh.vertices.size()) local_.assign(mesh.vertices.size(), -1);
   // A little more than asked for, so that a reach that wavers does not gather every step.
   built_reach_ = reach + 0.25 * skin.normal;
   // With no axis every direction is as likely: the whole skin counts as both.
@@ -170,27 +169,8 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   across_.resize(near_.size());
   meet_triangles(sweep, mesh, near_, across_.data());
   order_outwards();
-
-  node.clear();
-  const std::size_t triangles = padded(triangle.size());
-  for (auto* array : {&v0, &v1, &v2}) array->assign(triangles, 0);
-  for (std::size_t t = 0; t < triangle.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index v = mesh.triangles[at(triangle[t])][k];
-      std::int32_t& local = local_[at(v)];
-      if (local < 0) {
-        local = static_cast<std::int32_t>(node.size());
-        node.push_back(v);
-      }
-      (k == 0 ? v0 : k == 1 ? v1 : v2)[t] = local;
-    }
-  for (const Index v : node) local_[at(v)] = -1;
-
-  const std::size_t nodes = padded(node.size());
-  constexpr double far_away = 1e3;  // [m]: squares stay finite and no ball reaches it
-  for (auto* array : {&x, &y, &z}) array->assign(nodes, far_away);
-  for (auto* array : {&node_area, &bx, &by, &bz}) array->resize(nodes);
-  for (auto* array : {&ax, &ay, &az, &plane, &l01, &l12, &l20, &longest, &area}) array->resize(triangles);
+  number_nodes(mesh);
+  allocate();
   fetch_positions(mesh);
   measure_triangles();
   link_nodes();
@@ -204,6 +184,50 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   odometer_at_gather_ = odometer_at_measure_ = surface.odometer;
   revision_ = surface.revision;
   ++gatherings_;
+}
+
+bool MeshCandidates::restore(const TriangleMesh& mesh) {
+  if (!std::ranges::all_of(triangle, [&](Index t) { return t >= 0 && t < mesh.triangle_count(); }))
+    return false;
+  number_nodes(mesh);
+  if (measured_.size() != node.size()) return false;
+  allocate();
+  for (std::size_t i = 0; i < node.size(); ++i)
+    x[i] = measured_[i].x, y[i] = measured_[i].y, z[i] = measured_[i].z;
+  measure_triangles();
+  link_nodes();
+  bound_depth();
+  // Where wear has moved the surface since the last fetch, the next update fetches again.
+  fetch_positions(mesh);
+  return true;
+}
+
+/// Local numbers of the vertices, in the order in which the triangles come to them.
+void MeshCandidates::number_nodes(const TriangleMesh& mesh) {
+  if (local_.size() != mesh.vertices.size()) local_.assign(mesh.vertices.size(), -1);
+  node.clear();
+  v0.clear(), v1.clear(), v2.clear();
+  for (const Index t : triangle) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index v = mesh.triangles[at(t)][k];
+      std::int32_t& local = local_[at(v)];
+      if (local < 0) {
+        local = static_cast<std::int32_t>(node.size());
+        node.push_back(v);
+      }
+      (k == 0 ? v0 : k == 1 ? v1 : v2).push_back(local);
+    }
+  }
+  for (const Index v : node) local_[at(v)] = -1;
+}
+
+void MeshCandidates::allocate() {
+  const std::size_t nodes = padded(node.size()), triangles = padded(triangle.size());
+  constexpr double far_away = 1e3;  // [m]: squares stay finite and no ball reaches it
+  for (auto* array : {&x, &y, &z}) array->assign(nodes, far_away);
+  for (auto* array : {&node_area, &bx, &by, &bz}) array->resize(nodes);
+  for (auto* array : {&v0, &v1, &v2}) array->resize(triangles, 0);
+  for (auto* array : {&ax, &ay, &az, &plane, &l01, &l12, &l20, &longest, &area}) array->resize(triangles);
 }
 
 /// From the middle outwards: what is inside the ball comes first, what its rim cuts next, what is outside
@@ -273,6 +297,8 @@ void MeshCandidates::fetch_positions(const TriangleMesh& mesh) noexcept {
 }
 
 void MeshCandidates::measure_triangles() {
+  measured_.resize(node.size());
+  for (std::size_t i = 0; i < node.size(); ++i) measured_[i] = node_position(i);
   const kernels::TriangleSums sums = kernels::measure_triangles(*this);
   kernels::measure_nodes(*this, around_);
   longest_edge2 = sums.longest2;

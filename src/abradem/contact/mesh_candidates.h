@@ -48,8 +48,24 @@ class MeshCandidates {
   void update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
               const CandidateSkin& skin);
 
-  /// Forgets everything, so that the next update gathers anew: makes a restarted run take the same steps.
+  /// Forgets everything, so that the next update gathers anew.
   void reset() noexcept { gathered_ = false; }
+
+  /// What was gathered and when, for core/archive.h: which triangles, in which order, where their nodes stood
+  /// when they were last measured. The rest follows from it: restore().
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("triangle", self.triangle)("measured", self.measured_)("mean_point", self.mean_point);
+    archive("gathered", self.gathered_)("built_at", self.built_at_)("built_axis", self.built_axis_);
+    archive("tangential", self.built_skin_.tangential)("normal", self.built_skin_.normal);
+    archive("slide", self.built_skin_.slide)("built_reach", self.built_reach_);
+    archive("odometer_at_gather", self.odometer_at_gather_);
+    archive("odometer_at_measure", self.odometer_at_measure_);
+    archive("revision", self.revision_)("gatherings", self.gatherings_);
+  }
+  /// After loading: makes the arrays of the triangles loaded, bit for bit as they were.
+  /// @return whether they fit the mesh
+  [[nodiscard]] bool restore(const geometry::TriangleMesh& mesh);
 
   [[nodiscard]] std::size_t node_count() const noexcept { return node.size(); }
   [[nodiscard]] std::size_t triangle_count() const noexcept { return triangle.size(); }
@@ -89,6 +105,8 @@ class MeshCandidates {
   void gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
               const CandidateSkin& skin);
   void order_outwards();
+  void number_nodes(const geometry::TriangleMesh& mesh);
+  void allocate();
   void link_nodes();
   void place_mean_plane(const Vec3& c, double reach) noexcept;
   void fetch_positions(const geometry::TriangleMesh& mesh) noexcept;
@@ -100,6 +118,7 @@ class MeshCandidates {
   CandidateSkin built_skin_;
   double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0;
+  std::vector<Vec3> measured_;       // nodes' positions when the triangles were last measured
   std::vector<Index> near_;          // scratch: triangles of the cells near the way
   std::vector<double> across_;       // scratch: their distances from the way, or -1: out of reach
   std::vector<double> around_;       // scratch: of measure_nodes

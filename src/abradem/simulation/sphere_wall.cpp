@@ -298,6 +298,16 @@ void SphereWall::note_nodes() {
   for (std::size_t i = 0; i < noted_.size(); ++i) noted_[i] = candidates_.node_position(i);
 }
 
+bool SphereWall::restore(const Wall& wall) {
+  if (wall.is_plane()) return true;
+  if (!candidates_.restore(wall.surface().mesh())) return false;
+  const std::size_t nodes = candidates_.node_count(), padded = candidates_.x.size();
+  for (auto* array : {&dx_, &dy_, &dz_}) array->assign(padded, 0.0);
+  return (noted_.empty() || noted_.size() == nodes) &&
+         (node_pending_.empty() || node_pending_.size() == padded) &&
+         (patches_.node_excess().empty() || patches_.node_excess().size() == padded);
+}
+
 void SphereWall::add_to(core::StateHash& hash) const {
   for (const Memory& m : memory_) hash.add(m.history.s);
 }
