@@ -479,7 +479,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "it misses wall 'disc' by 6 mm sideways, a ring from 20 mm to 24 mm"},
         BadExample{"particle.pin.position=[0,0,\"3 mm\"]", "it misses wall 'disc' by 20 mm sideways"},
         BadExample{"particle.pin.position=[\"22 mm\",0,\"9 mm\"]", "'pin' hangs 6 mm above wall 'disc'"},
-        BadExample{"particle.pin.load=\"20 kN\"", "the load would press 'pin' 10.26 mm deep into the wall"},
+        BadExample{"particle.pin.load=\"20 kN\"", "the load would press 'pin' 10.28 mm deep into the wall"},
         BadExample{"particle.pin.load=\"1e308 N\"", "the load would press 'pin' inf m deep into the wall"},
         BadExample{"material.iron_ore.shear_modulus=0.1",
                    "where Hertz's law of contact ends; check the load (N) and the shear moduli (Pa)"},
