@@ -268,7 +268,7 @@ class Checker {
       check_placement(p, path);
   }
 
-  /// The load must leave the particle in what Hertz's law holds for, be it shared by all walls.
+  /// Does the load, shared by all walls, leave the particle in what Hertz's law holds for?
   void check_load(const ParticleSetup& p, const std::string& path) {
     constexpr double kDeepest = 0.1;
     const auto material_named = [&](const std::string& name) {
@@ -286,12 +286,15 @@ class Checker {
                                                 {other->density, other->shear_modulus, other->poisson_ratio}),
                      p.radius, share));
     }
-    if (!setup_.walls.empty() && least > kDeepest * p.radius)
-      error(path + ".load",
-            fmt::format(
-                "the load would press '{}' {} deep into the wall, more than a tenth of its radius, {}, where "
-                "Hertz's law of contact ends; check the load (N) and the shear moduli (Pa)",
-                p.name, readable(least), readable(p.radius)));
+    if (setup_.walls.empty() || least <= kDeepest * p.radius) return;
+    const std::string_view why =
+        "more than a tenth of its radius, where Hertz's law of contact ends; check the load (N) and the "
+        "shear moduli (Pa)";
+    if (std::isfinite(least))
+      note(path + ".load",
+           fmt::format("the load would press '{}' {} deep into the wall, {}", p.name, readable(least), why));
+    else
+      error(path + ".load", fmt::format("the load would press '{}' through the wall, {}", p.name, why));
   }
 
   /// How far the point under the particle's centre is outside a flat shape [m]; <= 0: above it.

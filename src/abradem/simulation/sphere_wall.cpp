@@ -280,8 +280,9 @@ void SphereWall::add_centroid_motion(const Wall& wall) {
 /// Does the ball hold a corner of the candidate triangle?
 bool SphereWall::inside(std::size_t t) const noexcept {
   const auto excess = patches_.node_excess();
-  const auto in = [&](std::int32_t v) { return excess[at(v)] > 0.0; };
-  return in(candidates_.v0[t]) | in(candidates_.v1[t]) | in(candidates_.v2[t]);
+  const double e0 = excess[at(candidates_.v0[t])], e1 = excess[at(candidates_.v1[t])],
+               e2 = excess[at(candidates_.v2[t])];
+  return std::max({e0, e1, e2}) > 0.0;
 }
 
 int SphereWall::elements(const Wall& wall) const {
