@@ -137,7 +137,7 @@ std::string table_rows(const DataTable& table) {
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const bool words = std::any_of(table.rows.begin(), table.rows.end(),
                                    [&](const auto& row) { return row[c].size() > 60; });
-    verdicts.push_back(lower(table.columns[c]) == "verdict");
+    verdicts.push_back(lower(table.columns[c]).starts_with("verdict"));
     styles.push_back(is_numeric(table, c) ? " class=\"number\"" : words ? " class=\"words\"" : "");
   }
   std::string out = "<thead><tr>";

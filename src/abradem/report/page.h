@@ -67,7 +67,7 @@ struct Figure {
 };
 
 /// "Table 2. Title. Caption" and tables/<id>.csv. The values "reproduced", "trend only" and "not reproduced"
-/// of a column named verdict are shown as badges; any other value there as a grey one.
+/// of a column whose name begins with "verdict" are shown as badges; any other value there as a grey one.
 struct DataTable {
   std::string id = {};  ///< as in Figure
   std::string title = {}, caption = {};

@@ -24,6 +24,9 @@ namespace abradem::report {
 /// A whole number with thin spaces between thousands.
 [[nodiscard]] std::string readable_count(long long value);
 
+/// The text with its first letter in upper case (ASCII).
+[[nodiscard]] std::string capital(std::string text);
+
 /// zlib stream (RFC 1950) of the bytes, best compression that is still quick.
 /// @throws IoError when zlib fails (out of memory)
 [[nodiscard]] std::string deflate(std::string_view bytes);
