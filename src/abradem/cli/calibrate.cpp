@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <filesystem>
 
@@ -14,9 +15,12 @@
 #include "abradem/core/error.h"
 #include "abradem/io/atomic_file.h"
 #include "abradem/io/case_file.h"
+#include "abradem/io/wear_tests.h"
 #include "abradem/report/calibration_report.h"
 #include "abradem/report/page.h"
+#include "abradem/report/wear_law_report.h"
 #include "abradem/study/calibration.h"
+#include "abradem/study/wear_law.h"
 
 namespace abradem::cli {
 
@@ -129,12 +133,36 @@ int calibrate_case(const CalibrateArguments& arguments) {
   return static_cast<int>(ExitCode::ok);
 }
 
+/// Many tests in a table need no case: the law is fitted to them.
+int calibrate_tests(const CalibrateArguments& arguments) {
+  const auto refuse = [](bool given, const char* option) {
+    if (given) throw InputError(fmt::format("{} belongs to a case; a table of tests has none", option));
+  };
+  refuse(!arguments.overrides.empty(), "--set");
+  refuse(!arguments.method.empty(), "--method");
+  refuse(!arguments.pair.empty(), "--pair");
+  refuse(arguments.unknown != "wear_coefficient", "--for");
+  std::vector<study::WearLawFit> fits;
+  for (const study::WearTests& tests : io::read_wear_tests(arguments.path))
+    fits.push_back(study::fit_wear_law(tests, arguments.coverage));
+  write_results(arguments, report::wear_law_page(fits, fs::path(arguments.path).filename().string()),
+                report::wear_law_json(fits));
+  if (!arguments.json) print_result(report::wear_law_text(fits));
+  return static_cast<int>(ExitCode::ok);
+}
+
+bool is_table(const std::string& path) {
+  std::string end = fs::path(path).extension().string();
+  for (char& c : end) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return end == ".csv";
+}
+
 }  // namespace
 
 int calibrate_command(const CalibrateArguments& arguments) {
   if (arguments.threads > 0) omp_set_num_threads(arguments.threads);
   if (!arguments.output.empty()) check_folder(arguments.output, arguments.force);
-  return calibrate_case(arguments);
+  return is_table(arguments.path) ? calibrate_tests(arguments) : calibrate_case(arguments);
 }
 
 }  // namespace abradem::cli

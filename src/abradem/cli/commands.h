@@ -39,7 +39,7 @@ struct SweepArguments {
 int sweep_command(const SweepArguments& arguments);
 
 struct CalibrateArguments {
-  std::string path;    ///< case file
+  std::string path;    ///< case file, or a table of tests (.csv)
   std::string output;  ///< folder of the page; empty: none is written
   std::vector<std::string> overrides;
   std::string unknown = "wear_coefficient";  ///< or "revolutions"

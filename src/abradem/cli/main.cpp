@@ -86,7 +86,12 @@ void declare_sweep(CLI::App& app, cli::SweepArguments& a) {
 void declare_calibrate(CLI::App& app, cli::CalibrateArguments& a) {
   CLI::App* calibrate = app.add_subcommand(
       "calibrate", "Find the wear coefficient (or the revolutions) that the measurement asks for");
-  calibrate->add_option("CASE", a.path, "Case file (TOML) with [measurement]")->required();
+  calibrate
+      ->add_option(
+          "CASE|TESTS", a.path,
+          "Case file (TOML) with [measurement]; or a table (.csv) of many tests, to which a wear law is "
+          "fitted")
+      ->required();
   add_overrides(*calibrate, a.overrides);
   calibrate
       ->add_option(
