@@ -10,6 +10,7 @@
 
 #include "abradem/cli/commands.h"
 #include "abradem/cli/mesh_loader.h"
+#include "abradem/cli/output_folder.h"
 #include "abradem/cli/print.h"
 #include "abradem/cli/stop_signals.h"
 #include "abradem/core/error.h"
@@ -28,25 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kRecord = "calibration.json";  // by which a folder of an earlier calibration is known
-
-/// Refuses, before any work, a folder that the result may not be written to.
-void check_folder(const fs::path& folder, bool force) {
-  std::error_code error;
-  const fs::file_status status = fs::status(folder, error);
-  if (!fs::exists(status)) return;
-  if (!fs::is_directory(status))
-    throw InputError(fmt::format("output folder '{}' is a file; choose another with -o", folder.string()));
-  if (fs::is_empty(folder, error)) return;
-  if (!fs::exists(folder / kRecord, error))
-    throw InputError(
-        fmt::format("output folder '{}' holds files that are not of a calibration; choose another with -o",
-                    folder.string()));
-  if (!force)
-    throw InputError(
-        fmt::format("output folder '{}' already holds a calibration; add --force to replace it, or choose "
-                    "another with -o",
-                    folder.string()));
-}
 
 /// What is being done, on one changing line of a terminal; a line per part elsewhere.
 class Status {
@@ -161,7 +143,8 @@ bool is_table(const std::string& path) {
 
 int calibrate_command(const CalibrateArguments& arguments) {
   if (arguments.threads > 0) omp_set_num_threads(arguments.threads);
-  if (!arguments.output.empty()) check_folder(arguments.output, arguments.force);
+  if (!arguments.output.empty())
+    check_result_folder(arguments.output, kRecord, "a calibration", arguments.force);
   return is_table(arguments.path) ? calibrate_tests(arguments) : calibrate_case(arguments);
 }
 

@@ -52,6 +52,16 @@ struct CalibrateArguments {
 /// Finds the wear coefficient or the number of revolutions that the measurement asks for.
 int calibrate_command(const CalibrateArguments& arguments);
 
+struct AnalyseArguments {
+  std::vector<std::string> paths;                ///< tables of profiles
+  std::string output;                            ///< folder of the page; empty: none is written
+  std::string level = "none";                    ///< none, mean or line
+  std::string shoulder, width_at, track_radius;  ///< lengths with units; empty: default, none, unknown
+  bool force = false, quiet = false, json = false;
+};
+/// Measures the grooves of measured profiles, and tests them.
+int analyse_command(const AnalyseArguments& arguments);
+
 struct CheckArguments {
   std::string path;
   std::vector<std::string> overrides;
