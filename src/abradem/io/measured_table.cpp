@@ -7,12 +7,11 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "abradem/core/error.h"
 #include "abradem/core/suggest.h"
+#include "abradem/io/csv.h"
 
 namespace abradem::io {
 
@@ -22,19 +21,6 @@ std::string_view trimmed(std::string_view text) noexcept {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
-    throw IoError(fmt::format("{}: no such file; expected a table in CSV", path.string()));
-  if (!std::filesystem::is_regular_file(path, ignored))
-    throw IoError(fmt::format("{}: not a file; expected a table in CSV", path.string()));
-  std::ifstream stream(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw IoError(fmt::format("{}: cannot be read; check its permissions", path.string()));
-  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);  // a byte order mark, as spreadsheets write
-  return text;
 }
 
 /// "mm3" and "N/mm2" as units are written in names of columns: a number behind a letter is a power.
@@ -89,7 +75,8 @@ char separator_of(std::string_view header) noexcept {
 }  // namespace
 
 MeasuredTable::MeasuredTable(const std::filesystem::path& path) : file_(path.string()) {
-  const std::string text = read_text(path);
+  std::string text = read_csv_text(path);
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);  // a byte order mark, as spreadsheets write
   std::size_t number = 0;
   for (std::size_t from = 0; from < text.size();) {
     const std::size_t end = std::min(text.find('\n', from), text.size());

@@ -13,6 +13,7 @@
 #include "abradem/analysis/run_in.h"
 #include "abradem/report/statistics_section.h"
 #include "abradem/report/table.h"
+#include "abradem/report/text.h"
 
 namespace abradem::report {
 namespace {
@@ -24,9 +25,6 @@ constexpr double kLevel = 0.05;
 
 std::string number(double x, int digits = 3) {
   return std::isfinite(x) ? fmt::format("{:.{}g}", x, digits) : "–";
-}
-std::string p_cell(double p) {
-  return !std::isfinite(p) ? "–" : p < 1e-4 ? fmt::format("{:.0e}", p) : fmt::format("{:.2g}", p);
 }
 
 /// The sections of one run, and what the paper's rule makes of them.
@@ -141,8 +139,8 @@ DataTable verdict_table(const std::vector<Group>& all) {
           const SeedSensitivity::Test& test = s.*(named.test);
           t.rows.push_back({group.label.empty() ? "all" : group.label, std::to_string(group.runs.size()),
                             width ? "width" : "depth", independent ? "independent" : "all", named.name,
-                            number(100.0 * test.share_passing), p_cell(test.p_min), p_cell(test.p_median),
-                            p_cell(test.p_max)});
+                            number(100.0 * test.share_passing), readable_p(test.p_min),
+                            readable_p(test.p_median), readable_p(test.p_max)});
         }
       }
   return t;

@@ -13,6 +13,7 @@
 #include "abradem/analysis/regression.h"
 #include "abradem/analysis/run_in.h"
 #include "abradem/core/error.h"
+#include "abradem/report/text.h"
 
 namespace abradem::report {
 namespace {
@@ -27,9 +28,6 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::string number(double x, int digits = 3) {
   return std::isfinite(x) ? fmt::format("{:.{}g}", x, digits) : "–";
-}
-std::string p_cell(double p) {
-  return !std::isfinite(p) ? "–" : p < 1e-4 ? fmt::format("{:.0e}", p) : fmt::format("{:.2g}", p);
 }
 
 /// At most `most` of n, evenly spread, with the first and the last.
@@ -154,7 +152,7 @@ class Statistics {
 std::string verdicts(const Normality& n) {
   std::string text;
   const auto add = [&](const char* name, double p) {
-    text += fmt::format("{}{} p = {}", text.empty() ? "" : ", ", name, p_cell(p));
+    text += fmt::format("{}{} p = {}", text.empty() ? "" : ", ", name, readable_p(p));
   };
   add("chi-squared", n.equiprobable.p);
   add("Anderson-Darling", n.anderson_darling.p);
@@ -185,8 +183,8 @@ std::string normality_sentence(const Statistics& a, const char* what, const Sect
         "from {} to "
         "{}); with equal-width bins, {:.0f} %.",
         last.equiprobable.bins.front(), last.equiprobable.bins.back(), last.normality.all.equiprobable.bins,
-        100.0 * last.equiprobable.share_passing, p_cell(last.equiprobable.p_min),
-        p_cell(last.equiprobable.p_max), 100.0 * last.equal_width.share_passing);
+        100.0 * last.equiprobable.share_passing, readable_p(last.equiprobable.p_min),
+        readable_p(last.equiprobable.p_max), 100.0 * last.equal_width.share_passing);
   return text;
 }
 
@@ -240,20 +238,20 @@ std::string run_in_sentence(const Statistics& a, const Watched& w) {
     case RunIn::State::from_start:
       if (r.p <= kLevel)
         return fmt::format("{}: steady from the start at {} [{}]; it changes (p = {}), but by less than 1 %.",
-                           w.name, number(r.level), w.unit, p_cell(r.p));
+                           w.name, number(r.level), w.unit, readable_p(r.p));
       return fmt::format("{}: nothing distinguishes it from a level, {} [{}] ({}), from the start (p = {}).",
                          w.name, number(r.level), w.unit,
-                         fmt::format("{} to {}", number(r.level_low), number(r.level_high)), p_cell(r.p));
+                         fmt::format("{} to {}", number(r.level_low), number(r.level_high)), readable_p(r.p));
     case RunIn::State::found:
       return fmt::format(
           "{}: runs in until {} {} (95 % interval {} to {}; p = {}), then steady at {} [{}] ({} to {}).",
-          w.name, a.s.counted, number(r.revolution, 6), number(r.low, 6), number(r.high, 6), p_cell(r.p),
+          w.name, a.s.counted, number(r.revolution, 6), number(r.low, 6), number(r.high, 6), readable_p(r.p),
           number(r.level), w.unit, number(r.level_low), number(r.level_high));
     case RunIn::State::not_steady:
       break;
   }
   return fmt::format("{}: changes (p = {}), and no part at its end is shown to be steady.", w.name,
-                     p_cell(r.p));
+                     readable_p(r.p));
 }
 
 std::string fit_sentence(const Statistics& a, const Fit& fit) {
@@ -308,11 +306,12 @@ DataTable normality_table(const Statistics& a, const std::string& id) {
       const Normality &n = of->normality.all, &independent = of->normality.independent;
       t.rows.push_back({number(a.s.revolutions[i], 6), what, std::to_string(of->summary.count),
                         number(of->summary.mean, 4), number(of->summary.sd), std::to_string(of->outliers),
-                        std::to_string(n.equiprobable.bins), p_cell(n.equiprobable.p),
-                        p_cell(n.equal_width.p), p_cell(n.anderson_darling.p), p_cell(n.shapiro_wilk.p),
-                        number(of->normality.correlation.length), std::to_string(independent.count),
-                        p_cell(independent.equiprobable.p), p_cell(independent.anderson_darling.p),
-                        p_cell(independent.shapiro_wilk.p), number(100.0 * of->equiprobable.share_passing),
+                        std::to_string(n.equiprobable.bins), readable_p(n.equiprobable.p),
+                        readable_p(n.equal_width.p), readable_p(n.anderson_darling.p),
+                        readable_p(n.shapiro_wilk.p), number(of->normality.correlation.length),
+                        std::to_string(independent.count), readable_p(independent.equiprobable.p),
+                        readable_p(independent.anderson_darling.p), readable_p(independent.shapiro_wilk.p),
+                        number(100.0 * of->equiprobable.share_passing),
                         number(100.0 * of->equal_width.share_passing)});
     }
   return t;
@@ -340,7 +339,7 @@ DataTable run_in_table(const Statistics& a, const std::string& id) {
     t.rows.push_back(
         {fmt::format("{} [{}]", w.name, w.unit), state(r), number(r.revolution, 6),
          std::isfinite(r.low) ? fmt::format("{} to {}", number(r.low, 6), number(r.high, 6)) : "–",
-         p_cell(r.p), number(r.level, 4),
+         readable_p(r.p), number(r.level, 4),
          std::isfinite(r.level) ? fmt::format("{} to {}", number(r.level_low, 4), number(r.level_high, 4))
                                 : "–",
          number(r.drift, 2),
@@ -370,7 +369,7 @@ DataTable fit_table(const Statistics& a, const std::string& id) {
     t.rows.push_back({fmt::format("{} [{}]", f.name, f.unit), quadratic ? "quadratic" : "linear",
                       number(law.coefficients[0], 5), interval(0),
                       quadratic ? number(law.coefficients[1], 4) : "–", quadratic ? interval(1) : "–",
-                      quadratic ? p_cell(law.p[1]) : "–", number(law.r_squared, 4),
+                      quadratic ? readable_p(law.p[1]) : "–", number(law.r_squared, 4),
                       number(f.cumulative_r_squared, 8)});
   }
   return t;

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "abradem/report/text.h"
+
 namespace abradem::report {
 
 namespace {
@@ -401,25 +403,25 @@ Figure exponent_figure(std::span<const WearLawFit> fits) {
 }
 
 // --- JSON ------------------------------------------------------------------------------------------------
-Json json_number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+Json json_value(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 Json json_estimate(const Estimate& e, double unit = 1.0) {
-  return {{"value", json_number(unit * e.value)},
-          {"low", json_number(unit * e.low)},
-          {"high", json_number(unit * e.high)}};
+  return {{"value", json_value(unit * e.value)},
+          {"low", json_value(unit * e.low)},
+          {"high", json_value(unit * e.high)}};
 }
 Json json_estimate(const std::optional<Estimate>& e, double unit = 1.0) {
   return e ? json_estimate(*e, unit) : Json(nullptr);
 }
 Json json_test(const FTest& t) {
-  return {{"F", json_number(t.statistic)}, {"df", {t.df_simpler, t.df_error}}, {"p", json_number(t.p)}};
+  return {{"F", json_value(t.statistic)}, {"df", {t.df_simpler, t.df_error}}, {"p", json_value(t.p)}};
 }
 Json json_test(const std::optional<FTest>& t) { return t ? json_test(*t) : Json(nullptr); }
 Json json_validation(const CrossValidation& power, const CrossValidation& archard) {
   return {{"folds", power.folds},
-          {"power_law_relative_error", json_number(power.relative_error)},
-          {"power_law_log_error", json_number(power.log_error)},
-          {"archard_relative_error", json_number(archard.relative_error)},
-          {"archard_log_error", json_number(archard.log_error)}};
+          {"power_law_relative_error", json_value(power.relative_error)},
+          {"power_law_log_error", json_value(power.log_error)},
+          {"archard_relative_error", json_value(archard.relative_error)},
+          {"archard_log_error", json_value(archard.log_error)}};
 }
 const char* identifiable_name(Identifiable what) {
   switch (what) {
@@ -449,23 +451,23 @@ Json json_fit(const WearLawFit& r) {
             {"q", json_estimate(r.q)},
             {"k_mm3", json_estimate(r.k, kMm3)}};
   if (r.combined) json["combined"] = {{"b", r.slope}, {"p_plus_b_q", json_estimate(r.combined)}};
-  json["r_squared"] = json_number(r.r_squared);
-  json["residual_sd"] = json_number(r.residual_sd);
-  json["variance_inflation"] = json_number(r.variance_inflation);
+  json["r_squared"] = json_value(r.r_squared);
+  json["residual_sd"] = json_value(r.residual_sd);
+  json["variance_inflation"] = json_value(r.variance_inflation);
   json["archard"] = {
       {"wear_coefficient_per_Pa", json_estimate(r.archard)},
-      {"residual_sd", json_number(r.archard_residual_sd)},
+      {"residual_sd", json_value(r.archard_residual_sd)},
       {"rejected", std::isfinite(r.against_archard.p) ? Json(r.archard_rejected()) : Json(nullptr)},
       {"test", json_test(r.against_archard)}};
   json["one_test_out"] = json_validation(r.one_out, r.one_out_archard);
   json["one_level_out"] = json_validation(r.level_out, r.level_out_archard);
   json["diagnosis"] = {{"curvature", json_test(r.curvature)},
                        {"lack_of_fit", json_test(r.lack_of_fit)},
-                       {"shapiro_wilk_p", json_number(d.shapiro_wilk.p)},
-                       {"anderson_darling_p", json_number(d.anderson_darling.p)},
-                       {"equal_scatter_p", json_number(d.equal_scatter_p)},
+                       {"shapiro_wilk_p", json_value(d.shapiro_wilk.p)},
+                       {"anderson_darling_p", json_value(d.anderson_darling.p)},
+                       {"equal_scatter_p", json_value(d.equal_scatter_p)},
                        {"outlier_test", std::isfinite(d.outlier_p) ? Json(d.outlier + 1) : Json(nullptr)},
-                       {"outlier_p", json_number(d.outlier_p)}};
+                       {"outlier_p", json_value(d.outlier_p)}};
   json["findings"] = wear_law_findings(r);
   return json;
 }
@@ -528,7 +530,7 @@ Page wear_law_page(std::span<const WearLawFit> fits, const std::string& source) 
   for (const WearLawFit& r : fits)
     for (const std::string& finding : wear_law_findings(r))
       words.items.emplace_back(
-          Paragraph{r.tests.material.empty() ? finding : fmt::format("{}: {}", name(r), finding)});
+          Paragraph{(r.tests.material.empty() ? "" : name(r) + ": ") + typeset(finding)});
   page.sections.push_back(std::move(words));
   return page;
 }
