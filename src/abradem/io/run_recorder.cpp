@@ -97,6 +97,7 @@ void RunRecorder::output(bool last) {
 void RunRecorder::write_frame() {
   if (run_.setup().output.frames == simulation::Frames::none) return;
   const double time = run_.test_time();
+  triangles_.resize(run_.walls().size());
   for (std::size_t w = 0; w < run_.walls().size(); ++w) {
     const simulation::Wall& wall = run_.walls()[w];
     if (wall.is_plane()) continue;
@@ -110,7 +111,8 @@ void RunRecorder::write_frame() {
       for (double& v : volume) v *= 1e18;
       const VtpArray points[]{{"depth_um", depth, 1}};
       const VtpArray cells[]{{"wear_volume_um3", volume, 1}};
-      write_vtp(folder_ / file, wall.surface().mesh(), points, cells);
+      if (!triangles_[w]) triangles_[w].emplace(wall.surface().mesh().triangles);
+      write_vtp(folder_ / file, wall.surface().mesh().vertices, *triangles_[w], points, cells);
     }
     frames_.push_back({time, file, static_cast<int>(w)});
   }

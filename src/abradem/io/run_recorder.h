@@ -51,6 +51,7 @@ class RunRecorder {
   CsvWriter force_;
   analysis::RunningStatistics normal_force_;
   std::vector<PvdEntry> frames_;
+  std::vector<std::optional<VtpTriangles>> triangles_;  // of each wall, once it has a frame
   int frame_ = 0;
   simulation::Ledger ledger_;
   std::optional<analysis::RevolutionRow> last_;

@@ -161,8 +161,9 @@ class Simulation {
   double dt_ = 0.0, period_ = 0.0, end_ = 0.0, acceleration_ = 1.0;
   std::uint64_t steps_ = 0, total_steps_ = 0, steps_per_output_ = 1;
   std::function<void(const Simulation&)> observer_;
-  std::vector<double> stiffness_ratio_;  // quasi_static: of each particle's contact, to Hertz's
-  double worst_damping_ = 0.0;           // largest 2 g + W met
+  std::vector<double>
+      stiffness_ratio_;         // quasi_static: of each particle's contact, to Hertz's; 0: not measured yet
+  double worst_damping_ = 0.0;  // largest 2 g + W met
 };
 
 /// Resolves a duration to seconds. @throws InputError when it is in revolutions and nothing turns

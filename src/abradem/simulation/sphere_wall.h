@@ -126,7 +126,9 @@ class SphereWall {
   Vec3 noted_at_;
   Vec3 axis_;  // towards the surface, from the last contact
   double centroid_volume_ = 0.0;
-  std::vector<Vec3> noted_, motion_;  // of each candidate node: where it was when last noted; since then
+  std::vector<Vec3> noted_;           // of each candidate node: where it was when last noted
+  std::vector<double> dx_, dy_, dz_;  // its motion since then, padded [m]
+  std::vector<double> terms_;         // scratch
 };
 
 }  // namespace abradem::simulation
