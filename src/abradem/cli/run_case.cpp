@@ -163,7 +163,7 @@ void try_to_record_failure(io::RunRecord& record, const RunOptions& options, con
 
 /// Finds how many revolutions stand for those of the test, and says so.
 study::AccelerationChoice choose_acceleration(const simulation::Setup& setup, RunLog& log) {
-  const study::AccelerationChoice choice = study::choose_acceleration(
+  study::AccelerationChoice choice = study::choose_acceleration(
       setup, MeshLoader(setup), [] { return !StopSignals::requested(); },
       [&](const study::AccelerationTrial& trial) {
         log.line(trial.difference
