@@ -10,8 +10,8 @@
 #include "abradem/report/paper_runs.h"
 #include "abradem/study/verdict.h"
 
-/// What the paper claims, what our runs give, and the verdict: computed from the runs by the rule that the file of
-/// published values names.                                               docs/reference/study.md#verdicts
+/// What the paper claims, what our runs give, and the verdict: computed from the runs by the rule that the
+/// file of published values names. docs/reference/study.md#verdicts
 namespace abradem::report {
 
 /// What the runs of one reading say to a claim.
@@ -27,7 +27,8 @@ struct JudgedClaim {
 };
 
 /// Every claim that runs can answer, in the order of the file.
-/// @throws IoError when the file names another rule for a claim than the one it is judged by, or too few numbers
+/// @throws IoError when the file names another rule for a claim than the one it is judged by, or too few
+/// numbers
 [[nodiscard]] std::vector<JudgedClaim> judge_claims(const PaperRuns& runs);
 
 /// "reproduced", "trend only" or "not reproduced", as page.h shows as badges.

@@ -11,6 +11,12 @@
 namespace abradem::report {
 namespace {
 
+/// As somebody would write it, without zeros at its end.
+std::string number_text(double x) {
+  const double size = std::abs(x);
+  return x == 0.0 || (size >= 1e-4 && size < 1e5) ? fmt::format("{:.6g}", x) : readable(x, 2);
+}
+
 std::string where_text(const PublishedClaim& claim) {
   std::string text = claim.quantity;
   if (!claim.conditions.empty()) text += fmt::format("; {}", claim.conditions);
@@ -29,14 +35,16 @@ const simulation::MaterialSetup* material(const simulation::Setup& setup, bool a
   return found == setup.materials.end() ? nullptr : &*found;
 }
 
-/// A number of the case that stands for an input of the paper, in the paper's unit; nothing where there is none.
+/// A number of the case that stands for an input of the paper, in the paper's unit; nothing where there is
+/// none.
 std::optional<double> input_of(const std::string& id, const PaperRuns& runs) {
   const simulation::Setup& setup = runs.setup;
   const auto *pin = material(setup, true), *disc = material(setup, false);
   const auto* wall = setup.walls.empty() ? nullptr : &setup.walls.front();
   const auto* sphere = setup.particles.empty() ? nullptr : &setup.particles.front();
   const auto* contact = setup.contacts.empty() ? nullptr : &setup.contacts.front();
-  if (pin == nullptr || disc == nullptr || wall == nullptr || sphere == nullptr || contact == nullptr) return {};
+  if (pin == nullptr || disc == nullptr || wall == nullptr || sphere == nullptr || contact == nullptr)
+    return {};
   if (id == "S01") return 1e3 * sphere->radius;
   if (id == "S04") return pin->density;
   if (id == "S05") return disc->density;
@@ -57,7 +65,8 @@ std::optional<double> input_of(const std::string& id, const PaperRuns& runs) {
   if (id == "S23") return setup.wear.front().wear_coefficient;
   if (id == "S24" && !setup.run.time_step.of_rayleigh) return setup.run.time_step.value;
   if (id == "S26") return setup.output.contours;
-  if (id == "S09" && std::isfinite(runs.passes_test)) return runs.passes_test * 2.0 * std::numbers::pi * runs.track;
+  if (id == "S09" && std::isfinite(runs.passes_test))
+    return runs.passes_test * 2.0 * std::numbers::pi * runs.track;
   return {};
 }
 
@@ -69,12 +78,13 @@ Status status_of(const PublishedClaim& claim, const PaperRuns& runs) {
   if (claim.rule == "literature") return {"–", "literature: no run can answer"};
   if (claim.rule == "choice") return {"–", "a choice, made by the runs' length"};
   if (claim.id == "S25")
-    return {fmt::format("{} sizes", std::max(runs.readings[0].mesh_sizes.size(), runs.readings[1].mesh_sizes.size())),
+    return {fmt::format("{} sizes",
+                        std::max(runs.readings[0].mesh_sizes.size(), runs.readings[1].mesh_sizes.size())),
             "input: the sizes run"};
   if (claim.id == "S27") return {"1 deg", "input: 360 sections fill the turn at 1° (decision 002)"};
   if (const auto ours = input_of(claim.id, runs); ours && claim.numbers.size() == 1) {
     const bool same = std::abs(*ours - claim.numbers.front()) <= 1e-3 * std::abs(claim.numbers.front());
-    return {readable(*ours, 5), same ? "input: the same" : "input: differs"};
+    return {number_text(*ours), same ? "input: the same" : "input: differs"};
   }
   if (claim.id == "S06b") return {"–", "input: the text says 143 (decision 001)"};
   if (claim.id == "S08") return {"–", "laboratory: speed does not enter Archard's law (decision 011)"};
@@ -86,16 +96,13 @@ Status status_of(const PublishedClaim& claim, const PaperRuns& runs) {
 std::string theirs_text(const PublishedClaim& claim) {
   if (!claim.words.empty()) return claim.words;
   const std::string unit = claim.unit == "-" ? "" : " " + claim.unit;
-  const auto text = [](double x) {
-    const double size = std::abs(x);
-    return x == 0.0 || (size >= 1e-4 && size < 1e5) ? fmt::format("{:.4g}", x) : readable(x, 2);
-  };
+  const auto text = number_text;
   if (claim.rule == "curve" && claim.numbers.size() == 4)
     return fmt::format("{} + {} n + {} n² mm³", text(claim.numbers[0]), text(claim.numbers[1]),
                        text(claim.numbers[2]));
   if (claim.id.starts_with('T') && claim.numbers.size() == 3)
-    return fmt::format("{} {}, {} % from the test's {}", text(claim.numbers[1]), claim.unit.substr(0, claim.unit.find(',')),
-                       text(claim.numbers[2]), text(claim.numbers[0]));
+    return fmt::format("{} {}, {} % from the test", text(claim.numbers[1]),
+                       claim.unit.substr(0, claim.unit.find(',')), text(claim.numbers[2]));
   if (claim.numbers.size() == 2 && claim.rule != "above")
     return fmt::format("{} to {}{}", text(claim.numbers[0]), text(claim.numbers[1]), unit);
   std::string list;
@@ -106,13 +113,14 @@ std::string theirs_text(const PublishedClaim& claim) {
 DataTable claims_table(const std::vector<JudgedClaim>& judged, const PaperRuns& runs) {
   DataTable table{.id = "claims",
                   .title = "Claims that runs can answer",
-                  .columns = {"claim", "what", "theirs", runs.readings[0].name, "verdict", runs.readings[1].name,
-                              "verdict "}};
+                  .columns = {"claim", "what", "theirs", runs.readings[0].name, "verdict",
+                              runs.readings[1].name, "verdict "}};
   table.caption =
-      "Each verdict is on the column before it; the reasons stand in the sections below. E: measured in the laboratory; all "
+      "Each verdict is on the column before it; the reasons stand in the sections below. E: measured in the "
+      "laboratory; all "
       "others: results of the paper's model.";
   for (const JudgedClaim& claim : judged) {
-    std::vector<std::string> row{claim.claim->id, where_text(*claim.claim), theirs_text(*claim.claim)};
+    std::vector<std::string> row{claim.claim->id, claim.claim->quantity, theirs_text(*claim.claim)};
     for (const auto& answer : claim.answers) {
       row.push_back(answer ? answer->ours : "–");
       row.push_back(verdict_of(answer));
@@ -125,14 +133,14 @@ DataTable claims_table(const std::vector<JudgedClaim>& judged, const PaperRuns& 
 DataTable reasons_table(const std::vector<JudgedClaim>& judged, const PaperRuns& runs, const std::string& id,
                         const std::vector<std::string>& shown) {
   DataTable table{.id = id,
-                  .title = "Verdicts on these",
+                  .title = "Verdicts",
                   .columns = {"claim", "what", "theirs", "reading", "ours", "verdict", "why"}};
   for (const JudgedClaim& claim : judged) {
     if (std::ranges::find(shown, claim.claim->shown) == shown.end()) continue;
     for (std::size_t r = 0; r < runs.readings.size(); ++r) {
       const auto& answer = claim.answers[r];
-      table.rows.push_back({claim.claim->id, claim.claim->quantity, theirs_text(*claim.claim), runs.readings[r].name,
-                            answer ? answer->ours : "–", verdict_of(answer),
+      table.rows.push_back({claim.claim->id, claim.claim->quantity, theirs_text(*claim.claim),
+                            runs.readings[r].name, answer ? answer->ours : "–", verdict_of(answer),
                             answer ? answer->why : "The runs that answer it are missing."});
     }
   }
@@ -145,7 +153,8 @@ DataTable figures_table(const std::vector<JudgedClaim>& judged, const PaperRuns&
                   .columns = {"shown in", "claims", "verdict: " + runs.readings[0].name,
                               "verdict: " + runs.readings[1].name, "what decides"}};
   table.caption =
-      "Reproduced where all claims that a figure or table shows are, not reproduced where none is even in trend, trend only "
+      "Reproduced where all claims that a figure or table shows are, not reproduced where none is even in "
+      "trend, trend only "
       "between. What decides: the reason for the worst verdict by the paper's rules.";
   std::vector<std::string> shown;
   for (const JudgedClaim& claim : judged)

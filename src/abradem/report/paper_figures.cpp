@@ -51,8 +51,8 @@ bool has_revolutions(const PaperRuns& runs) {
 /// What a distribution over the sections is of.
 struct Measure {
   std::string id, title, axis;
-  double factor = 1.0;                      // from the tables' millimetres
-  const char *range, *majority;             // claims of the paper
+  double factor = 1.0;           // from the tables' millimetres
+  const char *range, *majority;  // claims of the paper
   bool width = false;
 };
 
@@ -69,8 +69,7 @@ Series histogram(const std::string& name, const std::vector<double>& values, int
   const double width = std::max(high - low, 1e-12) / kBins;
   series.y.assign(kBins, 0.0);
   for (std::size_t b = 0; b < kBins; ++b) series.x.push_back(low + (static_cast<double>(b) + 0.5) * width);
-  for (const double v : values)
-    ++series.y[std::min(kBins - 1, static_cast<std::size_t>((v - low) / width))];
+  for (const double v : values) ++series.y[std::min(kBins - 1, static_cast<std::size_t>((v - low) / width))];
   return series;
 }
 
@@ -89,7 +88,8 @@ std::optional<Figure> distribution(const PaperRuns& runs, const Measure& measure
     around.x.range = {0.0, 360.0};
     // Beside values an order of size away the bands would hide the scatter.
     if (!reading.conserving || measure.width) {
-      for (const auto& [id, name] : {std::pair{measure.range, "paper: range"}, {measure.majority, "paper: majority"}})
+      for (const auto& [id, name] :
+           {std::pair{measure.range, "paper: range"}, {measure.majority, "paper: majority"}})
         if (const PublishedClaim* claim = runs.published.find(id))
           around.series.push_back(published_band(name, *claim, measure.factor, 0.0, 360.0));
     }
@@ -105,12 +105,13 @@ std::optional<Figure> distribution(const PaperRuns& runs, const Measure& measure
     figure.panels.push_back(std::move(spread));
   }
   figure.caption = fmt::format(
-      "Sections after revolution {:.6g}, α = {:.3g} 1/Pa. Grey: the ranges that the paper states (darker: where most are).{}",
+      "Sections after revolution {:.6g}, α = {:.3g} 1/Pa. Grey: the ranges that the paper states (darker: "
+      "where most are).{}",
       revolution, runs.setup.wear.front().wear_coefficient,
-      measure.width ? fmt::format(" Widths: {} ({}); {} ({}).", runs.readings[0].name,
-                                  runs.readings[0].width_name, runs.readings[1].name,
-                                  runs.readings[1].width_name)
-                    : "");
+      measure.width
+          ? fmt::format(" Widths: {} ({}); {} ({}).", runs.readings[0].name, runs.readings[0].width_name,
+                        runs.readings[1].name, runs.readings[1].width_name)
+          : "");
   return figure;
 }
 
@@ -152,10 +153,11 @@ std::optional<Figure> boxes_by_revolution(const PaperRuns& runs, const Measure& 
   return figure;
 }
 
-const Measure kDepth{"fig10-depths", "Wear depth after ten revolutions (Fig. 10)", "wear depth [µm]", kUm, "D01",
-                     "D02", false};
-const Measure kWidth{"fig11-widths", "Wear width after ten revolutions (Fig. 11)", "wear width [mm]", 1.0, "W01",
-                     "W02", true};
+const Measure kDepth{
+    "fig10-depths", "Wear depth after ten revolutions (Fig. 10)", "wear depth [µm]", kUm, "D01", "D02",
+    false};
+const Measure kWidth{
+    "fig11-widths", "Wear width after ten revolutions (Fig. 11)", "wear width [mm]", 1.0, "W01", "W02", true};
 
 }  // namespace
 
@@ -173,8 +175,10 @@ std::optional<Figure> fig07_mesh_size(const PaperRuns& runs) {
                 .panels = {depth, width},
                 .columns = 2};
   figure.caption = fmt::format(
-      "Mean over the sections after one revolution, α = {:.3g} 1/Pa; bars: one standard deviation. The paper states the "
-      "trends only: depth falls, width grows. Width: from the first displaced node to the last, for the conserving grooves are "
+      "Mean over the sections after one revolution, α = {:.3g} 1/Pa; bars: one standard deviation. The paper "
+      "states the "
+      "trends only: depth falls, width grows. Width: from the first displaced node to the last, for the "
+      "conserving grooves are "
       "too shallow here for a threshold of 0.5 µm.",
       runs.setup.wear.front().wear_coefficient);
   return figure;
@@ -241,8 +245,10 @@ std::optional<Figure> fig09_forces(const PaperRuns& runs) {
     figure.panels.push_back(std::move(panel));
   }
   figure.caption =
-      "Along the load, integrated in time with the paper's step; about 500 samples of each revolution, outliers as points. The "
-      "scales of the panels differ. By the paper's rules each triangle is a contact with a damper of its own, which brings "
+      "Along the load, integrated in time with the paper's step; about 500 samples of each revolution, "
+      "outliers as points. The "
+      "scales of the panels differ. By the paper's rules each triangle is a contact with a damper of its "
+      "own, which brings "
       "that step to the limit of stability: from revolution 2 on the pin chatters.";
   return figure;
 }
@@ -270,8 +276,8 @@ std::optional<Figure> fig14_contours(const PaperReading& reading, const PaperRun
   std::vector<double> last = run.column("revolution");
   if (last.size() > 3) last.erase(last.begin(), last.end() - 3);
   Figure figure{.id = reading.conserving ? "fig14-contours-conserving" : "fig14-contours-paper",
-                .title = fmt::format("Contours of the last three revolutions at eight positions, {} (Fig. 14)",
-                                     reading.name),
+                .title = fmt::format(
+                    "Contours of the last three revolutions at eight positions, {} (Fig. 14)", reading.name),
                 .columns = 4};
   const PublishedClaim* depths = runs.published.find("D03");
   for (std::size_t turn = 0; turn < last.size(); ++turn) {
@@ -285,7 +291,8 @@ std::optional<Figure> fig14_contours(const PaperReading& reading, const PaperRun
                  .y = {.title = "height [µm]"}};
         panel.x.range = {-1.0, 1.0};
         if (depths != nullptr && turn == 0)
-          panel.series.push_back(published_band("paper: depths after revolution 10", *depths, -kUm, -1.0, 1.0));
+          panel.series.push_back(
+              published_band("paper: depths after revolution 10", *depths, -kUm, -1.0, 1.0));
       }
       panel.series.push_back({.kind = Kind::line,
                               .name = fmt::format("revolution {:.6g}", last[turn]),
@@ -296,7 +303,8 @@ std::optional<Figure> fig14_contours(const PaperReading& reading, const PaperRun
   }
   if (figure.panels.empty()) return {};
   figure.caption = fmt::format(
-      "Sections at eight angles, α = {:.3g} 1/Pa. Grey: between the smallest and the largest depth that the paper finds at "
+      "Sections at eight angles, α = {:.3g} 1/Pa. Grey: between the smallest and the largest depth that the "
+      "paper finds at "
       "its eight positions.",
       run.wear_coefficient());
   return figure;

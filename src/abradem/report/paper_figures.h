@@ -8,8 +8,8 @@
 #include "abradem/report/page.h"
 #include "abradem/report/paper_runs.h"
 
-/// The figures and tables of the published pin-on-disc study, drawn from our runs with the paper's own numbers
-/// beside them. Each is nothing where its runs are missing.                docs/reference/study.md#page-paper
+/// The figures and tables of the published pin-on-disc study, drawn from our runs with the paper's own
+/// numbers beside them. Each is nothing where its runs are missing. docs/reference/study.md#page-paper
 namespace abradem::report {
 
 // Mesh size (paper_figures.cpp)

@@ -32,11 +32,13 @@ std::vector<analysis::Contour> sections_of(const FinishedRun& run) {
   for (const io::SeriesFrame& frame : frames)
     if (frame.part == frames.front().part) files.push_back(frame.file);
   if (files.size() < 2) return {};
-  const geometry::TriangleMesh before = io::read_vtp(files.front()).mesh, after = io::read_vtp(files.back()).mesh;
+  const geometry::TriangleMesh before = io::read_vtp(files.front()).mesh,
+                               after = io::read_vtp(files.back()).mesh;
   if (before.vertices.size() != after.vertices.size())
-    throw IoError(fmt::format("{}: its surfaces have {} and {} vertices", index.string(), before.vertices.size(),
-                              after.vertices.size()));
-  return analysis::cut_contours(after, before.vertices, analysis::worn_region(after, before.vertices, 1), analysis::RotaryCuts{});
+    throw IoError(fmt::format("{}: its surfaces have {} and {} vertices", index.string(),
+                              before.vertices.size(), after.vertices.size()));
+  return analysis::cut_contours(after, before.vertices, analysis::worn_region(after, before.vertices, 1),
+                                analysis::RotaryCuts{});
 }
 
 /// Height of a section at a radius, linear between its points; 0 beyond its ends [m].
@@ -51,7 +53,11 @@ double height_at(const std::vector<analysis::ProfilePoint>& profile, double radi
 /// Heights over angle [deg] and radius [mm].
 Series grid(const std::vector<analysis::Contour>& contours, double track, Kind kind) {
   constexpr double kHalf = 0.6e-3, kStep = 0.025e-3;
-  Series series{.kind = kind, .name = "height", .z_title = "height [µm]", .polar = kind == Kind::surface, .z_unit = 1e-3};
+  Series series{.kind = kind,
+                .name = "height",
+                .z_title = "height [µm]",
+                .polar = kind == Kind::surface,
+                .z_unit = 1e-3};
   for (const analysis::Contour& c : contours) series.x.push_back(c.angle * 180.0 / std::numbers::pi);
   for (double r = track - kHalf; r <= track + kHalf + 1e-9; r += kStep) {
     series.y.push_back(1e3 * r);
@@ -99,7 +105,8 @@ struct GrooveResult {
 GrooveResult result_of(const FinishedRun& run, const PaperReading& reading, std::string name) {
   const double last = run.last_revolution();
   return {std::move(name), analysis::summarise(run.sections(last, "depth_mm")).mean,
-          analysis::summarise(run.sections(last, reading.width_column)).mean, run.at(last, reading.volume_column)};
+          analysis::summarise(run.sections(last, reading.width_column)).mean,
+          run.at(last, reading.volume_column)};
 }
 
 std::string discrepancy(double ours, double test) {
@@ -141,7 +148,8 @@ std::optional<Figure> fig17_wear_profile(const PaperRuns& runs) {
     around.series.push_back(depth_around(contours, reading));
   }
   if (figure.panels.empty()) return {};
-  if (const PublishedClaim* spots = runs.published.find("F17"); spots != nullptr && spots->numbers.size() == 2)
+  if (const PublishedClaim* spots = runs.published.find("F17");
+      spots != nullptr && spots->numbers.size() == 2)
     around.series.insert(around.series.begin(), {.kind = Kind::band,
                                                  .name = "paper: highly deformed spots",
                                                  .x = spots->numbers,
@@ -154,7 +162,8 @@ std::optional<Figure> fig17_wear_profile(const PaperRuns& runs) {
   for (std::size_t p = 0; p < figure.panels.size(); ++p)
     figure.panels[p].title = fmt::format("({}) {}", static_cast<char>('a' + p), figure.panels[p].title);
   figure.caption = fmt::format(
-      "After {:.6g} revolutions at α = {:.3g} 1/Pa: 360 sections, cut from the surface. Where the spots of an unstructured mesh "
+      "After {:.6g} revolutions at α = {:.3g} 1/Pa: 360 sections, cut from the surface. Where the spots of "
+      "an unstructured mesh "
       "lie depends on the mesh.",
       revolution, coefficient);
   return figure;
@@ -175,11 +184,12 @@ std::optional<Figure> fig18_against_test(const PaperRuns& runs) {
     const auto profiles = profiles_of(run, run.last_revolution(), 1e3 * runs.track);
     for (const std::size_t k : which) {
       if (k >= profiles.size()) continue;
-      panel.series.push_back({.kind = Kind::line,
-                              .name = name.empty() ? fmt::format("contour at {:.0f}°", profiles[k].angle) : name,
-                              .x = profiles[k].x_mm,
-                              .y = profiles[k].height_um,
-                              .colour = colour++});
+      panel.series.push_back(
+          {.kind = Kind::line,
+           .name = name.empty() ? fmt::format("contour at {:.0f}°", profiles[k].angle) : name,
+           .x = profiles[k].x_mm,
+           .y = profiles[k].height_um,
+           .colour = colour++});
     }
   };
   const FinishedRun* calibrated = runs.readings[0].with_coefficient(1.7e-11);
@@ -199,7 +209,8 @@ std::optional<Figure> fig18_against_test(const PaperRuns& runs) {
   }
   if (figure.panels.empty()) return {};
   figure.caption =
-      "Grey: the ranges that the paper gives for its three measured contours; it prints no coordinates. The measured groove "
+      "Grey: the ranges that the paper gives for its three measured contours; it prints no coordinates. The "
+      "measured groove "
       "has ploughed ridges and a worn pin, neither of which is modelled.";
   return figure;
 }
@@ -208,21 +219,23 @@ std::optional<DataTable> table4(const PaperRuns& runs) {
   std::vector<GrooveResult> rows;
   const auto number = [&](const char* id, std::size_t k) {
     const PublishedClaim* claim = runs.published.find(id);
-    return claim != nullptr && claim->numbers.size() > k ? claim->numbers[k] : std::numeric_limits<double>::quiet_NaN();
+    return claim != nullptr && claim->numbers.size() > k ? claim->numbers[k]
+                                                         : std::numeric_limits<double>::quiet_NaN();
   };
   const GrooveResult test{"test (largest measured depth and width)", number("T01", 0), number("T02", 0),
                           number("T03", 0)};
-  const GrooveResult theirs{"paper's model, 12 revolutions at 1.7e-11 1/Pa", number("T01", 1), number("T02", 1),
-                            number("T03", 1)};
+  const GrooveResult theirs{"paper's model, 12 revolutions at 1.7e-11 1/Pa", number("T01", 1),
+                            number("T02", 1), number("T03", 1)};
   for (const PaperReading& reading : runs.readings)
     if (const FinishedRun* run = reading.with_coefficient(1.7e-11))
-      rows.push_back(result_of(*run, reading,
-                               fmt::format("{}, {:.6g} revolutions at 1.7e-11 1/Pa", reading.name,
-                                           run->last_revolution())));
+      rows.push_back(result_of(
+          *run, reading,
+          fmt::format("{}, {:.6g} revolutions at 1.7e-11 1/Pa", reading.name, run->last_revolution())));
   for (const FinishedRun& run : runs.calibrated)
-    rows.push_back(result_of(run, runs.readings[1],
-                             fmt::format("conserving, {:.6g} revolutions at {:.3g} 1/Pa, pin of {:.3g} GPa",
-                                         run.last_revolution(), run.wear_coefficient(), 1e-9 * pin_modulus(run))));
+    rows.push_back(
+        result_of(run, runs.readings[1],
+                  fmt::format("conserving, {:.6g} revolutions at {:.3g} 1/Pa, pin of {:.3g} GPa",
+                              run.last_revolution(), run.wear_coefficient(), 1e-9 * pin_modulus(run))));
   if (rows.empty()) return {};
   rows.insert(rows.begin(), {test, theirs});
   DataTable table{.id = "table4-against-test",
@@ -230,15 +243,18 @@ std::optional<DataTable> table4(const PaperRuns& runs) {
                   .columns = {"result", "depth [mm]", "depth off", "width [mm]", "width off", "volume [mm³]",
                               "volume off", "2/3 depth · width · track [mm³]"}};
   table.caption =
-      "Discrepancies as the paper computes them, against the largest of three measured depths and widths (the measured ranges "
-      "are 0.010 to 0.014 mm and 0.65 to 0.80 mm). The last column is the volume of a parabolic groove of that depth and "
+      "Discrepancies as the paper computes them, against the largest of three measured depths and widths "
+      "(the measured ranges "
+      "are 0.010 to 0.014 mm and 0.65 to 0.80 mm). The last column is the volume of a parabolic groove of "
+      "that depth and "
       "width: the paper's own three numbers do not belong to one groove (decision 009).";
   for (const GrooveResult& r : rows) {
     const bool is_test = &r == &rows.front();
     const double shape = 2.0 / 3.0 * r.depth * r.width * 2.0e3 * std::numbers::pi * runs.track;
     table.rows.push_back({r.name, readable(r.depth, 3), is_test ? "" : discrepancy(r.depth, test.depth),
-                          readable(r.width, 3), is_test ? "" : discrepancy(r.width, test.width), readable(r.volume, 3),
-                          is_test ? "" : discrepancy(r.volume, test.volume), readable(shape, 3)});
+                          readable(r.width, 3), is_test ? "" : discrepancy(r.width, test.width),
+                          readable(r.volume, 3), is_test ? "" : discrepancy(r.volume, test.volume),
+                          readable(shape, 3)});
   }
   return table;
 }

@@ -40,17 +40,23 @@ std::string count_text(const std::array<int, 3>& c) {
 
 PageSection overview(const std::vector<JudgedClaim>& judged, const PaperRuns& runs) {
   PageSection section{"Verdicts", {}};
-  section.items.emplace_back(Paragraph{
-      "Two readings of the same study. The paper's rules: each triangle is a contact, all three nodes of a worn triangle move "
-      "by its full depth (eq. 9), volume is the tally of eq. 10-12. Conserving: one contact patch whatever the mesh, and the "
-      "mesh loses exactly what the wear law says. Nothing is tuned to the paper."});
-  section.items.emplace_back(Paragraph{fmt::format(
-      "How verdicts are made, from the runs and the tolerance stated for each claim in the file of published values: a number "
-      "is reproduced within its tolerance (10 % unless stated), in trend only within a factor of {:.0f}; a range when both "
-      "ends are, in trend only when the ranges overlap; a trend when every step follows it, in trend only when most do; a "
-      "curve when every value is within its tolerance, in trend only within a factor of {:.0f} and bent the same way; p-values "
-      "when all lie on the same side of 5 %, in trend only when four in five do.",
-      study::kTrendFactor, study::kTrendFactor)});
+  section.items.emplace_back(
+      Paragraph{"Two readings of the same study. The paper's rules: each triangle is a contact, all three "
+                "nodes of a worn triangle move "
+                "by its full depth (eq. 9), volume is the tally of eq. 10-12. Conserving: one contact patch "
+                "whatever the mesh, and the "
+                "mesh loses exactly what the wear law says. Nothing is tuned to the paper."});
+  section.items.emplace_back(
+      Paragraph{fmt::format("How verdicts are made, from the runs and the tolerance stated for each claim in "
+                            "the file of published values: a number "
+                            "is reproduced within its tolerance (10 % unless stated), in trend only within a "
+                            "factor of {:.0f}; a range when both "
+                            "ends are, in trend only when the ranges overlap; a trend when every step "
+                            "follows it, in trend only when most do; a "
+                            "curve when every value is within its tolerance, in trend only within a factor "
+                            "of {:.0f} and bent the same way; p-values "
+                            "when all lie on the same side of 5 %, in trend only when four in five do.",
+                            study::kTrendFactor, study::kTrendFactor)});
   section.items.emplace_back(figures_table(judged, runs));
   section.items.emplace_back(claims_table(judged, runs));
   return section;
@@ -66,7 +72,8 @@ Page paper_page(const simulation::Setup& study, std::span<const StudyRun> study_
   page.title = study.title.empty() ? "Published study" : study.title;
   const std::array<int, 3> theirs = counts(judged, 0), ours = counts(judged, 1);
   page.summary = fmt::format(
-      "Of the claims that runs can answer, the paper's own rules give {}; the volume-conserving rules {}. The source: {}.",
+      "Of the claims that runs can answer, the paper's own rules give {}; the volume-conserving rules {}. "
+      "The source: {}.",
       count_text(theirs), count_text(ours), runs.published.source);
   const auto completed = std::ranges::count(study_runs, "completed", &StudyRun::status);
   double seconds = 0.0;
@@ -75,8 +82,10 @@ Page paper_page(const simulation::Setup& study, std::span<const StudyRun> study_
     if (counted.insert(run.folder).second) seconds += run.seconds;
   page.cards = {{"claims in the file", std::to_string(runs.published.claims.size())},
                 {"that runs can answer", std::to_string(judged.size())},
-                {runs.readings[0].name + ": reproduced", fmt::format("{} of {}", theirs[0], std::accumulate(theirs.begin(), theirs.end(), 0))},
-                {runs.readings[1].name + ": reproduced", fmt::format("{} of {}", ours[0], std::accumulate(ours.begin(), ours.end(), 0))},
+                {runs.readings[0].name + ": reproduced",
+                 fmt::format("{} of {}", theirs[0], std::accumulate(theirs.begin(), theirs.end(), 0))},
+                {runs.readings[1].name + ": reproduced",
+                 fmt::format("{} of {}", ours[0], std::accumulate(ours.begin(), ours.end(), 0))},
                 {"runs", fmt::format("{} of {}", completed, study_runs.size())},
                 {"time of all runs", fmt::format("{:.3g} s", seconds)}};
   page.sections.push_back(overview(judged, runs));
@@ -97,7 +106,8 @@ Page paper_page(const simulation::Setup& study, std::span<const StudyRun> study_
   add(spread, fig13_width_boxes(runs));
   add(spread, table3_normality(runs));
   add(spread, table3_figure(runs));
-  for (std::string& sentence : normality_sensitivity(runs)) spread.items.emplace_back(Paragraph{std::move(sentence)});
+  for (std::string& sentence : normality_sensitivity(runs))
+    spread.items.emplace_back(Paragraph{std::move(sentence)});
   for (const PaperReading& reading : runs.readings) add(spread, fig14_contours(reading, runs));
   add_verdicts(spread, judged, runs, "verdicts-spread",
                {"Fig. 10", "Fig. 11", "Fig. 12", "Fig. 13", "Fig. 14", "Table 3"});

@@ -14,9 +14,9 @@ namespace {
 using namespace std::string_view_literals;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::array kRevolutionColumns = {
-    "revolution"sv,    "law_volume_mm3"sv, "swept_volume_mm3"sv, "paper_volume_mm3"sv, "depth_mean_mm"sv,
-    "width_mean_mm"sv, "force_mean_N"sv,   "force_max_N"sv};
+constexpr std::array kRevolutionColumns = {"revolution"sv,       "law_volume_mm3"sv, "swept_volume_mm3"sv,
+                                           "paper_volume_mm3"sv, "depth_mean_mm"sv,  "width_mean_mm"sv,
+                                           "force_mean_N"sv,     "force_max_N"sv};
 constexpr std::array kContourColumns = {"revolution"sv, "angle_deg"sv, "depth_mm"sv, "width_mm"sv,
                                         "displaced_width_mm"sv};
 constexpr std::array kProfileColumns = {"revolution"sv, "angle_deg"sv, "radius_mm"sv, "height_mm"sv};

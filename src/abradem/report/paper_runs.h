@@ -33,7 +33,8 @@ struct FinishedRun {
   [[nodiscard]] std::vector<double> forces(double revolution, std::string_view column) const;
   [[nodiscard]] std::vector<double> column(std::string_view name, double factor = 1.0) const;
   /// p of the chi-squared test for each revolution; NaN without verdict.
-  [[nodiscard]] std::vector<double> normality(std::string_view contour_column, analysis::Binning binning) const;
+  [[nodiscard]] std::vector<double> normality(std::string_view contour_column,
+                                              analysis::Binning binning) const;
   /// A column of revolutions.csv at a revolution; NaN where the run has no such row.
   [[nodiscard]] double at(double revolution, std::string_view column) const;
 };
@@ -79,8 +80,8 @@ struct PaperRuns {
   simulation::Setup setup{};  ///< of the study
 };
 
-/// Width against mesh size, in both readings: the paper's, for coarse conserving grooves are shallower than the threshold
-/// of the other.
+/// Width against mesh size, in both readings: the paper's, for coarse conserving grooves are shallower than
+/// the threshold of the other.
 inline constexpr std::string_view kMeshWidth = "displaced_width_mm";
 
 /// Names of the variations that are drawn from.

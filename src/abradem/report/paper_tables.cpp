@@ -47,11 +47,12 @@ Panel p_panel(const PaperRuns& runs, bool width) {
   }
   for (const PaperReading& reading : runs.readings) {
     if (!reading.revolutions) continue;
-    panel.series.push_back({.kind = Series::Kind::line_markers,
-                            .name = reading.name,
-                            .x = reading.revolutions->column("revolution"),
-                            .y = drawn(reading.revolutions->normality(column_of(reading, width), reading.binning)),
-                            .colour = reading.colour});
+    panel.series.push_back(
+        {.kind = Series::Kind::line_markers,
+         .name = reading.name,
+         .x = reading.revolutions->column("revolution"),
+         .y = drawn(reading.revolutions->normality(column_of(reading, width), reading.binning)),
+         .colour = reading.colour});
   }
   panel.series.push_back({.kind = Series::Kind::line,
                           .name = "5 %",
@@ -85,7 +86,8 @@ std::optional<DataTable> table3_normality(const PaperRuns& runs) {
                   .title = "Normality of depth and width by revolution (Table 3)",
                   .columns = {"revolution"}};
   table.caption = fmt::format(
-      "p of the chi-squared test with the sample's own mean and deviation. The paper does not state its bins: {} are tested "
+      "p of the chi-squared test with the sample's own mean and deviation. The paper does not state its "
+      "bins: {} are tested "
       "in {} equal bins with pooled tails, {} in equiprobable bins (df = bins - 3).",
       runs.readings[0].name, analysis::kEqualWidthBins, runs.readings[1].name);
   std::vector<std::vector<double>> ours;
@@ -93,8 +95,9 @@ std::optional<DataTable> table3_normality(const PaperRuns& runs) {
     table.columns.emplace_back(width ? "width: paper" : "depth: paper");
     for (const PaperReading& reading : runs.readings) {
       table.columns.push_back(fmt::format("{}: {}", width ? "width" : "depth", reading.name));
-      ours.push_back(reading.revolutions ? reading.revolutions->normality(column_of(reading, width), reading.binning)
-                                         : std::vector<double>{});
+      ours.push_back(reading.revolutions
+                         ? reading.revolutions->normality(column_of(reading, width), reading.binning)
+                         : std::vector<double>{});
     }
   }
   for (std::size_t row = 0; row < revolutions.size(); ++row) {
@@ -111,12 +114,14 @@ std::optional<DataTable> table3_normality(const PaperRuns& runs) {
 
 std::optional<Figure> table3_figure(const PaperRuns& runs) {
   if (!runs.readings[0].revolutions && !runs.readings[1].revolutions) return {};
-  return Figure{.id = "table3-p-values",
-                .title = "The p-values of Table 3",
-                .caption = "Values below 10⁻¹⁶ (also those that the paper prints as 0) are drawn there. The run-in of the "
-                           "paper ends where both stay above 5 %.",
-                .panels = {p_panel(runs, false), p_panel(runs, true)},
-                .columns = 2};
+  return Figure{
+      .id = "table3-p-values",
+      .title = "The p-values of Table 3",
+      .caption =
+          "Values below 10⁻¹⁶ (also those that the paper prints as 0) are drawn there. The run-in of the "
+          "paper ends where both stay above 5 %.",
+      .panels = {p_panel(runs, false), p_panel(runs, true)},
+      .columns = 2};
 }
 
 std::vector<std::string> normality_sensitivity(const PaperRuns& runs) {
@@ -132,18 +137,20 @@ std::vector<std::string> normality_sensitivity(const PaperRuns& runs) {
                                   run.normality(reading.width_column, reading.binning), kLevel);
         found += (found.empty() ? "" : ", ") + found_text(from);
       }
-      text += fmt::format("On {} meshes of the same size and other seeds, without the chatter (quasi-static), depth and "
-                          "width are both normal at 5 %: {}.",
-                          reading.seeds.size(), found);
+      text += fmt::format(
+          "On {} meshes of the same size and other seeds, without the chatter (quasi-static), depth and "
+          "width are both normal at 5 %: {}.",
+          reading.seeds.size(), found);
     }
     if (reading.revolutions) {
       const FinishedRun& run = *reading.revolutions;
       const analysis::NormalFromByBins by_bins = analysis::normal_from_by_bins(
-          run.column("revolution"), samples(run, "depth_mm"), samples(run, reading.width_column), reading.binning,
-          kFewest, kMost, kLevel);
-      text += fmt::format("{}Of the numbers of bins from {} to {}, {:.0f} % find any revolution from which both stay "
-                          "normal.",
-                          text.empty() ? "" : " ", kFewest, kMost, 100.0 * by_bins.share_found);
+          run.column("revolution"), samples(run, "depth_mm"), samples(run, reading.width_column),
+          reading.binning, kFewest, kMost, kLevel);
+      text += fmt::format(
+          "{}Of the numbers of bins from {} to {}, {:.0f} % find any revolution from which both stay "
+          "normal.",
+          text.empty() ? "" : " ", kFewest, kMost, 100.0 * by_bins.share_found);
     }
     if (!text.empty()) out.push_back(fmt::format("Sensitivity, {}: {}", reading.name, text));
   }

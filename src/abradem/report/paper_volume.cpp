@@ -59,8 +59,10 @@ void add_coefficient(Panel& panel, const PaperReading& reading, const FinishedRu
                           .colour = colour});
   const study::PublishedFit* theirs = published_fit(run.wear_coefficient());
   if (theirs == nullptr) return;
-  Series curve{
-      .kind = Kind::line, .name = fmt::format("paper, eq. {}", theirs->equation), .colour = colour, .theirs = true};
+  Series curve{.kind = Kind::line,
+               .name = fmt::format("paper, eq. {}", theirs->equation),
+               .colour = colour,
+               .theirs = true};
   for (double x = 1.0; x <= 12.0 + 1e-9; x += 0.25) {
     curve.x.push_back(x);
     curve.y.push_back(1e9 * theirs->volume(x));
@@ -68,8 +70,12 @@ void add_coefficient(Panel& panel, const PaperReading& reading, const FinishedRu
   panel.series.push_back(std::move(curve));
 }
 
+/// A coefficient [mm^3] with half its interval; what no balance could weigh is 0.
+constexpr double kNothing = 1e-6;
 std::string bounds(double value, double low, double high) {
-  return fmt::format("{} ({} to {})", readable(value, 3), readable(low, 3), readable(high, 3));
+  const double half = 0.5 * (high - low);
+  if (std::abs(value) < kNothing && half < kNothing) return "0 ± < 10⁻⁶";
+  return fmt::format("{} ± {}", fmt::format("{:.3g}", value), fmt::format("{:.1g}", half));
 }
 
 /// Mean of a column over the force samples of a revolution, or its first sample (revolution 0).
@@ -88,9 +94,10 @@ std::optional<Figure> fig15_volumes(const PaperRuns& runs) {
   Figure figure{.id = "fig15-volumes", .title = "Wear volume against revolutions (Fig. 15)", .columns = 2};
   for (const PaperReading& reading : runs.readings) {
     if (reading.coefficients.empty()) continue;
-    Panel panel{.title = fmt::format("({}) {}", static_cast<char>('a' + figure.panels.size()), capital(reading.name)),
-                .x = {.title = "revolution [-]"},
-                .y = {.title = "wear volume [mm³]"}};
+    Panel panel{
+        .title = fmt::format("({}) {}", static_cast<char>('a' + figure.panels.size()), capital(reading.name)),
+        .x = {.title = "revolution [-]"},
+        .y = {.title = "wear volume [mm³]"}};
     if (const auto& lab = runs.measured.wear_volume)
       panel.series.push_back({.kind = Kind::band,
                               .name = "measured",
@@ -101,20 +108,24 @@ std::optional<Figure> fig15_volumes(const PaperRuns& runs) {
     int colour = 0;
     for (const FinishedRun& run : reading.coefficients) add_coefficient(panel, reading, run, colour++ % 8);
     if (reading.revolutions && !reading.conserving)
-      panel.series.push_back({.kind = Kind::line,
-                              .name = coefficient_name(reading.revolutions->wear_coefficient()) + ", with chatter",
-                              .x = reading.revolutions->column("revolution"),
-                              .y = reading.revolutions->column(reading.volume_column),
-                              .colour = 7,
-                              .dash = Series::Dash::dot});
+      panel.series.push_back(
+          {.kind = Kind::line,
+           .name = coefficient_name(reading.revolutions->wear_coefficient()) + ", with chatter",
+           .x = reading.revolutions->column("revolution"),
+           .y = reading.revolutions->column(reading.volume_column),
+           .colour = std::max(0, colour - 1) % 8,
+           .dash = Series::Dash::dot});
     figure.panels.push_back(std::move(panel));
   }
   if (figure.panels.empty()) return {};
   figure.caption = fmt::format(
-      "Markers: runs; lines: quadratic fits to them with their 95 % confidence bands (often thinner than the line); dashed: "
-      "the paper's fits, eq. 13-17; grey: the measured volume. The runs are quasi-static; dotted: one integrated in time with "
+      "Markers: runs; lines: quadratic fits to them with their 95 % confidence bands (often thinner than the "
+      "line); dashed: "
+      "the paper's fits, eq. 13-17; grey: the measured volume. The runs are quasi-static; dotted: one "
+      "integrated in time with "
       "the paper's step, which makes the pin chatter. Volumes: {} ({}); {} ({}).",
-      runs.readings[0].name, runs.readings[0].volume_name, runs.readings[1].name, runs.readings[1].volume_name);
+      runs.readings[0].name, runs.readings[0].volume_name, runs.readings[1].name,
+      runs.readings[1].volume_name);
   return figure;
 }
 
@@ -122,13 +133,15 @@ std::optional<Figure> fig15_ratio(const PaperRuns& runs) {
   Figure figure{.id = "fig15-over-archard", .title = "Wear volume over Archard's α F L", .columns = 2};
   for (const PaperReading& reading : runs.readings) {
     if (reading.coefficients.empty()) continue;
-    Panel panel{.title = fmt::format("({}) {}", static_cast<char>('a' + figure.panels.size()), capital(reading.name)),
-                .x = {.title = "revolution [-]"},
-                .y = {.title = "volume over α F L [-]"}};
+    Panel panel{
+        .title = fmt::format("({}) {}", static_cast<char>('a' + figure.panels.size()), capital(reading.name)),
+        .x = {.title = "revolution [-]"},
+        .y = {.title = "volume over α F L [-]"}};
     panel.y.range = {0.0, 7.5};
     int colour = 0;
     for (const FinishedRun& run : reading.coefficients) {
-      Series ours{.kind = Kind::line_markers, .name = coefficient_name(run.wear_coefficient()), .colour = colour % 8};
+      Series ours{
+          .kind = Kind::line_markers, .name = coefficient_name(run.wear_coefficient()), .colour = colour % 8};
       ours.x = run.column("revolution");
       ours.y = run.column(reading.volume_column);
       for (std::size_t k = 0; k < ours.x.size(); ++k)
@@ -151,29 +164,33 @@ std::optional<Figure> fig15_ratio(const PaperRuns& runs) {
   }
   if (figure.panels.empty()) return {};
   figure.caption =
-      "What the law that the paper states (eq. 3) removes is 1. Its published volumes are 2 to 6.8 times that and grow with "
-      "the groove; no rule with a converged time step does (decision 013). The measured coefficient was found with this law.";
+      "What the law that the paper states (eq. 3) removes is 1. Its published volumes are 2 to 6.8 times "
+      "that and grow with "
+      "the groove; no rule with a converged time step does (decision 013). The measured coefficient was "
+      "found with this law.";
   return figure;
 }
 
 std::optional<DataTable> fits_table(const PaperRuns& runs) {
   DataTable table{.id = "eq13-17-fits",
                   .title = "Quadratic fits y = c + a x + b x² of volume against revolutions (eq. 13-17)",
-                  .columns = {"α [1/Pa]", "of", "a, linear [mm³]", "b, quadratic [mm³]", "c, constant [mm³]", "R²",
+                  .columns = {"α [1/Pa]", "of", "a [mm³]", "b [mm³]", "c [mm³]", "R²",
                               "b by increments [mm³]", "p of b = 0"}};
   table.caption =
-      "In brackets 95 % intervals. Values of a sum are not independent, so its R² is close to 1 whatever the law; the fit of "
-      "the increments is the one whose interval means something. Its p is the chance of such a b where the true one is 0.";
+      "±: half of the 95 % interval. Values of a sum are not independent, so its R² is close to 1 whatever "
+      "the law; the fit of "
+      "the increments is the one whose interval means something. Its p is the chance of such a b where the "
+      "true one is 0.";
   const PaperReading& first = runs.readings[runs.readings[0].coefficients.empty() ? 1 : 0];
   for (const FinishedRun& reference : first.coefficients) {
     const double alpha = reference.wear_coefficient();
     const std::string name = fmt::format("{:.2g}", alpha);
     if (const study::PublishedFit* fit = published_fit(alpha)) {
       const PublishedClaim* claim = runs.published.find(fmt::format("V{}", fit->equation));
-      table.rows.push_back({name, fmt::format("paper, eq. {}", fit->equation), readable(fit->a1), readable(fit->a2),
-                            readable(fit->a0),
-                            claim != nullptr && claim->numbers.size() == 4 ? readable(claim->numbers[3], 3) : "–", "–",
-                            "–"});
+      table.rows.push_back(
+          {name, fmt::format("paper, eq. {}", fit->equation), readable(fit->a1), readable(fit->a2),
+           readable(fit->a0),
+           claim != nullptr && claim->numbers.size() == 4 ? readable(claim->numbers[3], 3) : "–", "–", "–"});
     }
     for (const PaperReading& reading : runs.readings) {
       const FinishedRun* run = reading.with_coefficient(alpha);
@@ -182,12 +199,12 @@ std::optional<DataTable> fits_table(const PaperRuns& runs) {
       if (!fit) continue;
       const analysis::IncrementFit increments =
           analysis::fit_increments(run->column("revolution"), run->column(reading.volume_column), 2);
-      table.rows.push_back({name, reading.name, bounds(fit->coefficients[1], fit->low[1], fit->high[1]),
-                            bounds(fit->coefficients[2], fit->low[2], fit->high[2]),
-                            bounds(fit->coefficients[0], fit->low[0], fit->high[0]),
-                            fmt::format("{:.6f}", fit->r_squared),
-                            bounds(increments.coefficients[1], increments.low[1], increments.high[1]),
-                            readable(increments.p[1], 2)});
+      table.rows.push_back(
+          {name, reading.name, bounds(fit->coefficients[1], fit->low[1], fit->high[1]),
+           bounds(fit->coefficients[2], fit->low[2], fit->high[2]),
+           bounds(fit->coefficients[0], fit->low[0], fit->high[0]), fmt::format("{:.6f}", fit->r_squared),
+           bounds(increments.coefficients[1], increments.low[1], increments.high[1]),
+           std::abs(increments.coefficients[1]) < kNothing ? "–" : readable(increments.p[1], 2)});
     }
   }
   if (table.rows.empty()) return {};
@@ -204,18 +221,19 @@ std::optional<Figure> fig16_force_components(const PaperRuns& runs) {
     const FinishedRun& run = reading.coefficients.back();
     coefficient = run.wear_coefficient();
     last = run.last_revolution();
-    Panel panel{.title = fmt::format("({}) {}", static_cast<char>('a' + figure.panels.size()), capital(reading.name)),
-                .x = {.title = "component [-]",
-                      .labels = {{1.0, "along the load"}, {2.0, "across"}, {3.0, "sum of magnitudes"}}},
-                .y = {.title = "normal force [N]"}};
+    Panel panel{
+        .title = fmt::format("({}) {}", static_cast<char>('a' + figure.panels.size()), capital(reading.name)),
+        .x = {.title = "component [-]",
+              .labels = {{1.0, "along the load"}, {2.0, "across"}, {3.0, "sum of magnitudes"}}},
+        .y = {.title = "normal force [N]"}};
     const auto bars = [&](std::string name, double revolution, int colour) {
-      panel.series.push_back({.kind = Kind::bars,
-                              .name = std::move(name),
-                              .x = {1.0, 2.0, 3.0},
-                              .y = {force_mean(run, revolution, "normal_along_N"),
-                                    force_mean(run, revolution, "normal_across_N"),
-                                    force_mean(run, revolution, "normal_sum_N")},
-                              .colour = colour});
+      panel.series.push_back(
+          {.kind = Kind::bars,
+           .name = std::move(name),
+           .x = {1.0, 2.0, 3.0},
+           .y = {force_mean(run, revolution, "normal_along_N"),
+                 force_mean(run, revolution, "normal_across_N"), force_mean(run, revolution, "normal_sum_N")},
+           .colour = colour});
     };
     bars("before: first sample", 0.0, 0);
     bars(fmt::format("after: revolution {:.6g}", last), last, 1);
@@ -223,8 +241,10 @@ std::optional<Figure> fig16_force_components(const PaperRuns& runs) {
   }
   if (figure.panels.empty()) return {};
   figure.caption = fmt::format(
-      "α = {:.3g} 1/Pa, quasi-static. Across: the mean size of the part that is not along the load. The paper explains by it "
-      "that the wear per revolution grows; the flanks of the groove are so flat that it adds a few per cent at most.",
+      "α = {:.3g} 1/Pa, quasi-static. Across: the mean size of the part that is not along the load. The "
+      "paper explains by it "
+      "that the wear per revolution grows; the flanks of the groove are so flat that it adds a few per cent "
+      "at most.",
       coefficient);
   return figure;
 }

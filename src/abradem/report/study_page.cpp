@@ -107,9 +107,12 @@ std::string gaps(std::span<const StudyRun> runs) {
 Page study_page(const simulation::Setup& study, std::span<const StudyRun> runs,
                 const std::filesystem::path& output) {
   switch (study.study->page) {
-    case simulation::StudyPage::paper: return paper_page(study, runs, output);
-    case simulation::StudyPage::scaling: return scaling_page(study, runs, output);
-    case simulation::StudyPage::table: break;
+    case simulation::StudyPage::paper:
+      return paper_page(study, runs, output);
+    case simulation::StudyPage::scaling:
+      return scaling_page(study, runs, output);
+    case simulation::StudyPage::table:
+      break;
   }
   return table_page(study, runs, output);
 }

@@ -13,8 +13,7 @@ namespace abradem::study {
 namespace {
 
 void check_sizes(std::span<const double> a, std::span<const double> b, std::size_t fewest) {
-  if (a.size() != b.size())
-    throw InputError(fmt::format("{} values to compare with {}", a.size(), b.size()));
+  if (a.size() != b.size()) throw InputError(fmt::format("{} values to compare with {}", a.size(), b.size()));
   if (a.size() < fewest) throw InputError(fmt::format("{} values; expected {} at least", a.size(), fewest));
 }
 

@@ -31,11 +31,17 @@ TEST(HalfSpaceDepth, IsWithinItsErrorOfTheSolutions) {
     const double W = groove_number(s.wear, pin.effective_modulus);
     return half_space_depth(W) * pin.approach() * 1e6 / s.depth_um - 1.0;
   };
-  for (const State& s :
-       {State{6.81e-11, 0.7235}, {1.362e-10, 1.4346}, {2.724e-10, 2.8209}, {5.448e-10, 5.4616}, {8.172e-10, 7.9467}})
+  for (const State& s : {State{6.81e-11, 0.7235},
+                         {1.362e-10, 1.4346},
+                         {2.724e-10, 2.8209},
+                         {5.448e-10, 5.4616},
+                         {8.172e-10, 7.9467}})
     EXPECT_LT(std::abs(deviation(kSoft, s)), kHalfSpaceDepthError + 1e-4) << s.wear;
-  for (const State& s :
-       {State{6.81e-11, 2.1543}, {1.362e-10, 3.4663}, {2.724e-10, 5.5409}, {5.448e-10, 8.8272}, {8.172e-10, 11.5812}})
+  for (const State& s : {State{6.81e-11, 2.1543},
+                         {1.362e-10, 3.4663},
+                         {2.724e-10, 5.5409},
+                         {5.448e-10, 8.8272},
+                         {8.172e-10, 11.5812}})
     EXPECT_LT(std::abs(deviation(stiff, s)), kHalfSpaceDepthError + 1e-4) << s.wear;
 }
 
@@ -53,7 +59,8 @@ TEST(RigidSphereDepth, IsThatOfTheSegment) {
   // A = (4/3) sqrt(2 R) d^(3/2) = alpha n F, in metres.
   const double wear = 8.172e-10, W = groove_number(wear, kSoft.effective_modulus);
   const double depth = rigid_sphere_depth(W) * kSoft.approach();
-  EXPECT_NEAR(4.0 / 3.0 * std::sqrt(2.0 * kSoft.radius) * std::pow(depth, 1.5) / (wear * kSoft.force), 1.0, 1e-12);
+  EXPECT_NEAR(4.0 / 3.0 * std::sqrt(2.0 * kSoft.radius) * std::pow(depth, 1.5) / (wear * kSoft.force), 1.0,
+              1e-12);
   EXPECT_NEAR(depth, 11.61e-6, 0.01e-6);
 }
 

@@ -79,7 +79,8 @@ TEST(Verdicts, OfATrendAskForEveryStep) {
   EXPECT_EQ(judge_trend(std::vector{5.0, 4.0, 3.0, 1.0}, Trend::falling), reproduced);
   EXPECT_EQ(judge_trend(std::vector{5.0, 4.0, 4.1, 1.0}, Trend::falling), trend_only);
   EXPECT_EQ(judge_trend(std::vector{5.0, 4.0, 3.0, 1.0}, Trend::rising), not_reproduced);
-  EXPECT_EQ(judge_trend(std::vector{1.0, 0.9, 0.8, 2.0}, Trend::rising), not_reproduced);  // one step of three
+  EXPECT_EQ(judge_trend(std::vector{1.0, 0.9, 0.8, 2.0}, Trend::rising),
+            not_reproduced);  // one step of three
   EXPECT_EQ(judge_trend(std::vector{1.0, 1.0}, Trend::rising), not_reproduced);
   EXPECT_EQ(judge_trend(std::vector{1.0, kNaN}, Trend::rising), not_reproduced);
   EXPECT_THROW((void)judge_trend(std::vector{1.0}, Trend::rising), InputError);
