@@ -502,12 +502,10 @@ std::string wear_law_json(std::span<const WearLawFit> fits) {
 
 Page wear_law_page(std::span<const WearLawFit> fits, const std::string& source) {
   std::size_t tests = 0;
-  double largest = 0.0;
   std::size_t rejected = 0;
   for (const WearLawFit& r : fits) {
     tests += r.tests.volume.size();
     rejected += r.archard_rejected() ? 1 : 0;
-    largest = std::max(largest, r.one_out.relative_error);
   }
   Page page{.title = "Wear law of " + source, .summary = summary_sentence(fits)};
   page.cards = {{"tests", std::to_string(tests)},
