@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""check_plots.py SCRIPT FOLDER: runs plot_paper.py on FOLDER/page and on a run's folder; fails, saying why."""
+"""check_plots.py SCRIPT FOLDER: runs plot_paper.py on FOLDER/page, FOLDER/study and on a run's folder; fails, saying why."""
 import pathlib
 import re
 import struct
@@ -43,6 +43,12 @@ check("Figure 1 (mesh_size). Depth and width against mesh size. Mean over" in ca
 before = (page / "figures" / "forces.pdf").read_bytes()
 plot(page, "--only", "forces")
 check((page / "figures" / "forces.pdf").read_bytes() == before, "forces.pdf differs when it is drawn again")
+
+study = folder / "study"
+done = plot(study, "--formats", "png")
+check(done.returncode == 0 and "15 figures" in done.stdout, f"study: {done.returncode}, {done.stdout}{done.stderr}")
+for name, width in {"fig07-mesh-size": 175, "fig14-contours-paper": 175, "fig15-volumes": 175, "fig17-wear-profile": 85}.items():
+    check(abs(width_mm(study / "figures" / f"{name}.png") - width) < 0.2, f"{name}.png is not {width} mm wide")
 
 run = folder / "run"
 subprocess.run([sys.executable, pathlib.Path(__file__).parent / "make_run.py", run, "--revolutions", "3", "--size", "1"], check=True)
