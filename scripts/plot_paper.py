@@ -258,6 +258,8 @@ def log_ticks(axis, low, high):
     axis.set_major_locator(ticker.LogLocator(subs=steps))
     if decades < 7 and 1e-3 <= low and high < 1e5:
         axis.set_major_formatter(ticker.FuncFormatter(lambda v, _: f"{v:.3g}" if v < 1000 else f"{v:.0f}"))
+    elif decades >= 2.2:
+        axis.set_major_formatter(ticker.FuncFormatter(lambda v, _: power(round(math.log10(v))) if v > 0 else ""))
     if decades < 2.2:
         axis.set_minor_formatter(ticker.NullFormatter())
 
