@@ -339,7 +339,9 @@ def draw(figure, width):
         named, mappable = draw_panel(axes, panel, figure, 0.8 * cell)
         for name, handle in named.items():
             legend.setdefault(name, handle)
-        if mappable:
+        # A ring in 3D leaves little room beside it: one scale is enough where another panel has it.
+        shown = any(s["kind"] == "heat" and s["z_title"] == mappable[1] for p in panels for s in p["series"]) if mappable else False
+        if mappable and not (solid[k] and shown):
             page.colorbar(mappable[0], ax=axes, label=mappable[1], shrink=0.8 if solid[k] else 1.0, pad=0.1 if solid[k] else 0.02)
     top = 0.0
     if legend:
