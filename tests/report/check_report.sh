@@ -14,7 +14,7 @@ chromium=$(command -v chromium || command -v chromium-browser || command -v goog
 rm -rf "$folder"
 case $kind in
   # The title tries to be markup, a script and a place of the template.
-  worn) python3 "$here/make_run.py" "$folder" --title '<script>alert("run")</script> {{charts}} & "pin"'; figures=10 ;;
+  worn) python3 "$here/make_run.py" "$folder" --title '<script>alert("run")</script> {{charts}} & "pin"'; figures=13 ;;
   unworn) python3 "$here/make_run.py" "$folder" --unworn; figures=0 ;;
   page) "$make_report" "$folder"; exec "$node" "$here/check_page.mjs" "$chromium" "$folder/report.html" ;;
   study) "$make_report" "$folder" "$here/../../cases/paper/claims.json"; exec "$node" "$here/check_study.mjs" "$chromium" "$folder/report.html" ;;

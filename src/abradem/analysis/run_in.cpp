@@ -155,6 +155,7 @@ RunIn find_run_in(std::span<const double> x, std::span<const double> values, con
   // A shuffle that explains the same to round-off explains as well.
   r.p = permutation_p(model, y, fit.explained * (1.0 - 1e-12), options);
   if (r.p > 1.0 - options.confidence) return r;
+  if (s.max - s.min <= options.drift_tolerance * std::abs(r.level)) return r;  // seen, and too small to count
 
   r.state = RunIn::State::not_steady;
   const auto [low, high] = bootstrap_interval(model, y, fit, options);

@@ -52,6 +52,11 @@ using material::PairProperties;
 /// What a contact remembers from step to step.
 struct TangentialHistory {
   Vec3 s;  ///< elastic tangential displacement [m]
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("s", self.s);
+  }
 };
 
 /// Kinematics of one contact at one step. Velocities are of this body relative to the other, at the contact.
@@ -68,6 +73,11 @@ struct ContactForce {
   Vec3 F_t;           ///< tangential force on this body [N]
   double slip = 0.0;  ///< plastic sliding of this step: what the spring did not take up [m]
   double v_t = 0.0;   ///< tangential speed [m/s]
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("F_n", self.F_n)("F_t", self.F_t)("slip", self.slip)("v_t", self.v_t);
+  }
 };
 
 /// The spring turned into the plane of the new normal, at its length.

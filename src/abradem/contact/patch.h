@@ -42,6 +42,12 @@ class PatchEvaluator {
   /// at most.
   [[nodiscard]] std::span<const int> clusters() const noexcept { return clusters_; }
 
+  /// What is asked for between two evaluations, for core/archive.h.
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("excess", self.excess_);
+  }
+
  private:
   bool evaluate_nodes(const MeshCandidates& candidates, const Vec3& c, double R, const PairProperties& pair);
   void evaluate_triangles(const MeshCandidates& candidates, const Vec3& c, double R,

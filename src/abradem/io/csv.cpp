@@ -48,7 +48,9 @@ std::vector<std::string_view> split(std::string_view line) {
   }
 }
 
-std::string read_text(const std::filesystem::path& path) {
+}  // namespace
+
+std::string read_csv_text(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
     throw IoError(fmt::format("'{}': no such file; expected a table in CSV", path.string()));
@@ -59,8 +61,6 @@ std::string read_text(const std::filesystem::path& path) {
   if (!stream) throw IoError(fmt::format("'{}': cannot be read; check its permissions", path.string()));
   return text;
 }
-
-}  // namespace
 
 CsvWriter::CsvWriter(std::filesystem::path path, std::vector<std::string> columns)
     : path_(std::move(path)), temporary_(path_), columns_(std::move(columns)) {
@@ -125,7 +125,7 @@ std::vector<double> CsvTable::column(std::string_view name) const {
 }
 
 CsvTable read_csv(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
+  const std::string text = read_csv_text(path);
   const auto refuse = [&](std::size_t line, const std::string& what) {
     throw IoError(fmt::format("{}:{}: {}", path.string(), line, what));
   };

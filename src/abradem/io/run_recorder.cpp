@@ -51,6 +51,9 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder)
               "normal_along_N", "normal_across_N", "normal_sum_N"}) {
   if (run.setup().output.frames != simulation::Frames::none) made(folder_ / "vtk");
   worn_wall_ = analysis::worn_wall(run.walls());
+  const bool around =
+      worn_wall_ && run.walls()[*worn_wall_].setup().motion.kind == simulation::MotionKind::rotation;
+  normality_.emplace(folder_ / "tables", around ? analysis::Ends::joined : analysis::Ends::open);
   for (std::size_t p = run.particles().size(); p-- > 0;)
     if (norm2(run.particles().load[p]) > 0.0) watched_particle_ = p;
   force_stride_ = static_cast<std::uint64_t>(
@@ -87,12 +90,14 @@ void RunRecorder::output(bool last) {
                                    {ledger_.law, ledger_.swept, ledger_.paper}, contours, normal_force_);
   normal_force_ = {};
   tables_.add(*last_, contours);
+  normality_->add(last_->revolution, contours);
   if (last || run_.setup().output.frames == simulation::Frames::all) write_frame();
 }
 
 void RunRecorder::write_frame() {
   if (run_.setup().output.frames == simulation::Frames::none) return;
   const double time = run_.test_time();
+  triangles_.resize(run_.walls().size());
   for (std::size_t w = 0; w < run_.walls().size(); ++w) {
     const simulation::Wall& wall = run_.walls()[w];
     if (wall.is_plane()) continue;
@@ -106,7 +111,8 @@ void RunRecorder::write_frame() {
       for (double& v : volume) v *= 1e18;
       const VtpArray points[]{{"depth_um", depth, 1}};
       const VtpArray cells[]{{"wear_volume_um3", volume, 1}};
-      write_vtp(folder_ / file, wall.surface().mesh(), points, cells);
+      if (!triangles_[w]) triangles_[w].emplace(wall.surface().mesh().triangles);
+      write_vtp(folder_ / file, wall.surface().mesh().vertices, *triangles_[w], points, cells);
     }
     frames_.push_back({time, file, static_cast<int>(w)});
   }
@@ -142,6 +148,7 @@ void RunRecorder::write_elements() const {
 void RunRecorder::close() {
   run_.on_step({});
   tables_.close();
+  normality_->close();
   force_.close();
   write_elements();
 }

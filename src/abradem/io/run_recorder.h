@@ -8,6 +8,7 @@
 #include "abradem/analysis/revolution_row.h"
 #include "abradem/analysis/statistics.h"
 #include "abradem/io/csv.h"
+#include "abradem/io/normality_table.h"
 #include "abradem/io/vtp.h"
 #include "abradem/io/wear_tables.h"
 #include "abradem/simulation/simulation.h"
@@ -46,9 +47,11 @@ class RunRecorder {
   std::size_t watched_particle_ = 0;
   std::uint64_t force_stride_ = 1;
   WearTables tables_;
+  std::optional<NormalityTable> normality_;
   CsvWriter force_;
   analysis::RunningStatistics normal_force_;
   std::vector<PvdEntry> frames_;
+  std::vector<std::optional<VtpTriangles>> triangles_;  // of each wall, once it has a frame
   int frame_ = 0;
   simulation::Ledger ledger_;
   std::optional<analysis::RevolutionRow> last_;

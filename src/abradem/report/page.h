@@ -98,6 +98,16 @@ struct Page {
 /// name
 [[nodiscard]] std::string page_html(const Page& page);
 
+/// Sections of a page that is made otherwise: their HTML, and the data of their figures for figures.js.
+struct SectionParts {
+  std::string html, data;
+};
+/// @param figures, tables that the page numbers before them   @throws Error (internal) as page_html
+[[nodiscard]] SectionParts section_parts(const std::vector<PageSection>& sections, int figures, int tables);
+
+/// Writes folder/tables/<id>.csv for each figure and table.   @throws IoError
+void write_section_tables(const std::filesystem::path& folder, const std::vector<PageSection>& sections);
+
 /// Writes folder/tables/<id>.csv for each figure and table, folder/tables/figures.json (what is drawn from
 /// which rows, for scripts/plot_paper.py) and last folder/report.html, each whole or not at all.
 /// @return the path of the page   @throws IoError, and as page_html before anything is written

@@ -116,7 +116,7 @@ void Simulation::add_particles() {
   }
   particles_.force.resize(particles_.size());
   particles_.torque.resize(particles_.size());
-  stiffness_ratio_.assign(particles_.size(), 1.0);
+  stiffness_ratio_.assign(particles_.size(), 0.0);
   for (std::size_t i = 0; i < particles_.size(); ++i)
     for (std::size_t j = i + 1; j < particles_.size(); ++j) sphere_pairs_.push_back({i, j, {}, false});
 }

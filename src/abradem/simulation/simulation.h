@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "abradem/contact/hertz_mindlin.h"
+#include "abradem/core/archive.h"
 #include "abradem/simulation/setup.h"
 #include "abradem/simulation/sphere_wall.h"
 #include "abradem/simulation/wall.h"
@@ -114,6 +115,12 @@ class Simulation {
   [[nodiscard]] std::vector<StabilityLimit> limits() const;
   /// Hash of everything that the next step depends on.
   [[nodiscard]] std::uint64_t state_hash() const;
+  /// Saves everything that the following steps depend on.
+  void save(core::ArchiveWriter& archive) const;
+  /// Puts a new run where save() left one of the same setup (the end apart) and the same meshes: it goes on
+  /// to the same bits.
+  /// @throws IoError when the archive is of something else, or damaged; the run is then of no use
+  void load(core::ArchiveReader& archive);
   /// Kinetic energy of all particles [J].
   [[nodiscard]] double kinetic_energy() const noexcept;
 
@@ -122,7 +129,14 @@ class Simulation {
     std::size_t i, j;
     contact::TangentialHistory history;
     bool touching = false;
+
+    template <typename Self, typename Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive("history", self.history);
+    }
   };
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive);
 
   void add_particles();
   void choose_time_step();
@@ -161,8 +175,9 @@ class Simulation {
   double dt_ = 0.0, period_ = 0.0, end_ = 0.0, acceleration_ = 1.0;
   std::uint64_t steps_ = 0, total_steps_ = 0, steps_per_output_ = 1;
   std::function<void(const Simulation&)> observer_;
-  std::vector<double> stiffness_ratio_;  // quasi_static: of each particle's contact, to Hertz's
-  double worst_damping_ = 0.0;           // largest 2 g + W met
+  std::vector<double>
+      stiffness_ratio_;         // quasi_static: of each particle's contact, to Hertz's; 0: not measured yet
+  double worst_damping_ = 0.0;  // largest 2 g + W met
 };
 
 /// Resolves a duration to seconds. @throws InputError when it is in revolutions and nothing turns

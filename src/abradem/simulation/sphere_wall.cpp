@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "abradem/contact/candidate_kernels.h"
+
 namespace abradem::simulation {
 
 namespace {
@@ -179,7 +181,7 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
         surface.deposit_element(candidates_.triangle[t], scale * w);
   } else if (shares.nodal) {
     node_pending_.resize(candidates_.x.size());
-    for (std::size_t i = 0; i < candidates_.node_count(); ++i) {
+    for (std::size_t i = 0; i < shares.at_node.size(); ++i) {
       if (!(shares.at_node[i] > 0.0)) continue;
       const double volume = scale * shares.at_node[i];
       node_pending_[i] += volume;
@@ -196,12 +198,12 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
 /// What fell to a node was lost by the triangles around it, each by its part of the node's area.
 void SphereWall::book_elements(Wall& wall) {
   if (node_pending_.empty()) return;
+  for (std::size_t i = 0; i < candidates_.node_count(); ++i) node_pending_[i] /= candidates_.node_area[i];
   for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
-    double volume = 0.0;
-    for (const std::int32_t v : {candidates_.v0[t], candidates_.v1[t], candidates_.v2[t]})
-      volume += node_pending_[at(v)] / candidates_.node_area[at(v)];
-    if (volume > 0.0)
-      wall.surface().book_element(candidates_.triangle[t], volume * candidates_.area[t] / 3.0);
+    const double depths = node_pending_[at(candidates_.v0[t])] + node_pending_[at(candidates_.v1[t])] +
+                          node_pending_[at(candidates_.v2[t])];
+    if (depths > 0.0)
+      wall.surface().book_element(candidates_.triangle[t], depths * candidates_.area[t] / 3.0);
   }
   node_pending_.clear();
 }
@@ -250,32 +252,37 @@ double SphereWall::pending_volume() const noexcept {
 /// Adds what the centroids of the elements in contact have moved since they were last noted.
 void SphereWall::add_centroid_motion(const Wall& wall) {
   if (wall.setup().deformation != DeformationRule::conserving) return;
-  const auto touched = [&](std::size_t t) {
-    if (wall.setup().contact == ContactRule::patch) return inside(t);
-    return std::ranges::any_of(touches_,
-                               [&](const Touch& touch) { return touch.part == static_cast<int>(t); });
-  };
   const geometry::TriangleMesh& mesh = wall.surface().mesh();
   bool moved = false;
   for (std::size_t i = 0; i < noted_.size(); ++i) {
     const Vec3& now = mesh.vertices[at(candidates_.node[i])];
-    motion_[i] = now - noted_[i];
+    const Vec3 motion = now - noted_[i];
     noted_[i] = now;
-    moved = moved || motion_[i] != Vec3{};
+    dx_[i] = motion.x, dy_[i] = motion.y, dz_[i] = motion.z;
+    moved = moved || motion != Vec3{};
   }
   if (!moved) return;
+  if (wall.setup().contact == ContactRule::patch) {
+    centroid_volume_ += contact::kernels::centroid_motion(candidates_, patches_.node_excess(), dx_.data(),
+                                                          dy_.data(), dz_.data(), terms_);
+    return;
+  }
   for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
-    const Vec3 sum =
-        motion_[at(candidates_.v0[t])] + motion_[at(candidates_.v1[t])] + motion_[at(candidates_.v2[t])];
-    if (sum != Vec3{} && touched(t)) centroid_volume_ += norm(sum) * candidates_.area[t] / 3.0;
+    const auto of_touch = [&](const Touch& touch) { return touch.part == static_cast<int>(t); };
+    if (std::ranges::none_of(touches_, of_touch)) continue;
+    const auto sum = [&](const std::vector<double>& d) {
+      return d[at(candidates_.v0[t])] + d[at(candidates_.v1[t])] + d[at(candidates_.v2[t])];
+    };
+    centroid_volume_ += norm(Vec3{sum(dx_), sum(dy_), sum(dz_)}) * candidates_.area[t] / 3.0;
   }
 }
 
 /// Does the ball hold a corner of the candidate triangle?
 bool SphereWall::inside(std::size_t t) const noexcept {
   const auto excess = patches_.node_excess();
-  return excess[at(candidates_.v0[t])] > 0.0 || excess[at(candidates_.v1[t])] > 0.0 ||
-         excess[at(candidates_.v2[t])] > 0.0;
+  const double e0 = excess[at(candidates_.v0[t])], e1 = excess[at(candidates_.v1[t])],
+               e2 = excess[at(candidates_.v2[t])];
+  return std::max({e0, e1, e2}) > 0.0;
 }
 
 int SphereWall::elements(const Wall& wall) const {
@@ -288,8 +295,18 @@ int SphereWall::elements(const Wall& wall) const {
 
 void SphereWall::note_nodes() {
   noted_.resize(candidates_.node_count());
-  motion_.resize(noted_.size());
+  for (auto* array : {&dx_, &dy_, &dz_}) array->assign(candidates_.x.size(), 0.0);
   for (std::size_t i = 0; i < noted_.size(); ++i) noted_[i] = candidates_.node_position(i);
+}
+
+bool SphereWall::restore(const Wall& wall) {
+  if (wall.is_plane()) return true;
+  if (!candidates_.restore(wall.surface().mesh())) return false;
+  const std::size_t nodes = candidates_.node_count(), padded = candidates_.x.size();
+  for (auto* array : {&dx_, &dy_, &dz_}) array->assign(padded, 0.0);
+  return (noted_.empty() || noted_.size() == nodes) &&
+         (node_pending_.empty() || node_pending_.size() == padded) &&
+         (patches_.node_excess().empty() || patches_.node_excess().size() == padded);
 }
 
 void SphereWall::add_to(core::StateHash& hash) const {

@@ -45,6 +45,13 @@ class SphereWall {
     int key = -1;                ///< per_triangle: mesh triangle
     int part = 0;                ///< patch or flat set that it stands for
     contact::ContactForce force;
+
+    template <typename Self, typename Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive("n", self.n)("point", self.point)("overlap", self.overlap);
+      archive("elastic_force", self.elastic_force)("a", self.a)("deepest", self.deepest);
+      archive("key", self.key)("part", self.part)("force", self.force);
+    }
   };
 
   /// First part of the search, in the order of particles: settles what the last candidates still owe the
@@ -98,12 +105,28 @@ class SphereWall {
   /// `deform_conserving` [m^3].
   double take_centroid_volume(const Wall& wall);
 
+  /// All that lasts from one step to the next, for core/archive.h. restore() follows a load.
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("candidates", self.candidates_)("patches", self.patches_);
+    archive("touches", self.touches_)("memory", self.memory_)("node_pending", self.node_pending_);
+    archive("noted_at", self.noted_at_)("noted", self.noted_)("axis", self.axis_);
+    archive("centroid_volume", self.centroid_volume_);
+  }
+  /// @return whether what was loaded fits the wall
+  [[nodiscard]] bool restore(const Wall& wall);
+
  private:
   struct Memory {
     Vec3 n, point;
     int key = -1;
     contact::TangentialHistory history;
     bool used = false;
+
+    template <typename Self, typename Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive("n", self.n)("point", self.point)("key", self.key)("history", self.history);
+    }
   };
   void deposit_one(Wall& wall, const Touch& touch, double dV, double R, const contact::PairProperties& pair);
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
@@ -126,7 +149,9 @@ class SphereWall {
   Vec3 noted_at_;
   Vec3 axis_;  // towards the surface, from the last contact
   double centroid_volume_ = 0.0;
-  std::vector<Vec3> noted_, motion_;  // of each candidate node: where it was when last noted; since then
+  std::vector<Vec3> noted_;           // of each candidate node: where it was when last noted
+  std::vector<double> dx_, dy_, dz_;  // its motion since then, padded [m]
+  std::vector<double> terms_;         // scratch
 };
 
 }  // namespace abradem::simulation

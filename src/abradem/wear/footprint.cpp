@@ -43,10 +43,7 @@ ABRADEM_INLINE double nodes(std::size_t padded_count, const double* __restrict e
                             const double* __restrict area, double* __restrict load, const Weight weight) {
   for (std::size_t i = 0; i < padded_count; ++i)
     load[i] = area[i] * weight.of_depth(shallow_depth(excess[i]));
-  core::Lanes sum{};
-  const auto lanes = [](const double* p) { return reinterpret_cast<const core::Lanes*>(p); };
-  for (std::size_t i = 0; i < padded_count; i += MeshCandidates::kLanes) sum += *lanes(load + i);
-  return ABRADEM_SUM_LANES(sum);
+  return core::sum_lanes(load, padded_count);
 }
 
 ABRADEM_DISPATCH double load_nodes(std::size_t padded_count, const double* __restrict excess,
@@ -88,7 +85,7 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
   shares_.nodal =
       edges >= kEdgesPerReach && field.deepest < kShallow * field.R && !by_elements && mask.empty();
   if (shares_.nodal) {
-    at_node_.resize(candidates.x.size());
+    at_node_.resize(MeshCandidates::count_above(field.excess, cut));
     shares_.total = load_nodes(at_node_.size(), field.excess.data(), candidates.node_area.data(),
                                at_node_.data(), weight);
     shares_.at_node = at_node_;

@@ -17,7 +17,7 @@ namespace abradem::wear {
 /// functions of its three vertices (`at0` … `at2`), integrated over parts of the triangle.
 struct FootprintShares {
   bool nodal = false;
-  std::span<const double> at_node;  ///< per candidate node, padded
+  std::span<const double> at_node;  ///< of the first candidate nodes; the others have no load
   std::size_t count = 0;
   std::span<const double> at0, at1, at2;  ///< per candidate triangle
   double total = 0.0;                     ///< sum of all

@@ -19,6 +19,12 @@ struct DeformGuards {
   std::uint64_t flipped = 0;      ///< a triangle turned by more than 90 degrees from its first orientation
   Index worst_vertex = -1;        ///< of the last fatal step
   Index worst_triangle = -1;      ///< last flipped
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("deep_steps", self.deep_steps)("fatal_steps", self.fatal_steps)("flipped", self.flipped);
+    archive("worst_vertex", self.worst_vertex)("worst_triangle", self.worst_triangle);
+  }
 };
 
 /// A surface that loses material: a mesh, where it started, and what each element has lost.
@@ -81,6 +87,18 @@ class WearingSurface {
   void check_orientation();
   [[nodiscard]] const DeformGuards& guards() const noexcept { return guards_; }
   [[nodiscard]] bool flat() const noexcept { return flat_; }
+
+  /// All that wear has changed since the surface was made of its mesh, for core/archive.h.
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive.fixed("vertices", self.mesh_.vertices).fixed("sink", self.sink_).fixed("pending", self.pending_);
+    archive.indices("touched", self.touched_, self.pending_.size());
+    archive.fixed("volume", self.volume_).fixed("pending_element", self.pending_element_);
+    archive.indices("touched_elements", self.touched_elements_, self.volume_.size());
+    archive("border_moved", self.border_moved_)("swept_by_updates", self.swept_by_updates_);
+    archive("odometer", self.odometer_)("deepest_sink", self.deepest_sink_)("revision", self.revision_);
+    archive("guards", self.guards_);
+  }
 
  private:
   void add_to_vertex(Index v, double volume) {
