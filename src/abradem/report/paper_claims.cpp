@@ -529,8 +529,9 @@ Answer f17(const PublishedClaim& claim, const PaperRuns&, const PaperReading& r)
   };
   std::ptrdiff_t best = 0;
   for (const double from : spots) best = std::max(best, within(from, from + theirs.high - theirs.low));
+  constexpr std::size_t kSeveral = 3;
   const std::ptrdiff_t half = (std::ssize(spots) + 1) / 2;
-  const Verdict verdict = spots.empty()                             ? Verdict::not_reproduced
+  const Verdict verdict = spots.size() < kSeveral                   ? Verdict::not_reproduced
                           : within(theirs.low, theirs.high) >= half ? Verdict::reproduced
                           : best >= half                            ? Verdict::trend_only
                                                                     : Verdict::not_reproduced;
@@ -539,9 +540,9 @@ Answer f17(const PublishedClaim& claim, const PaperRuns&, const PaperReading& r)
                                    : fmt::format("{} outliers; deepest at {:.0f}°", spots.size(),
                                                  angle[static_cast<std::size_t>(deepest)]),
                      verdict,
-                     "Where spots lie is a matter of the unstructured mesh, and the paper's is not known; "
-                     "reproduced would be "
-                     "half of them in its sector, trend only half of them in any sector of that size."};
+                     "Where spots lie is a matter of the unstructured mesh, and the paper's is not known. "
+                     "Reproduced: half of "
+                     "three or more in its sector; trend only: half of them in any sector of that size."};
 }
 
 // ---------------------------------------------------------------- all of them
