@@ -79,11 +79,11 @@ void Checkpoints::write(bool running) {
   io::write_file_atomically(folder_ / "run.json", io::to_json(now, run_.setup()));
 }
 
-bool Checkpoints::save() {
+bool Checkpoints::save(bool running) {
   saved_ = Clock::now();
   try {
     note();
-    write(true);
+    write(running);
     return true;
   } catch (const IoError& error) {
     log_.warning(fmt::format("no checkpoint was written: {}; the run goes on", error.what()));

@@ -52,8 +52,9 @@ class Checkpoints {
 
   /// Between two steps: saves what is due. A file that cannot be written is a warning; the run goes on.
   void look();
-  /// Now, as a file. @return whether it could be written
-  bool save();
+  /// Now, as a file. @param running not at its end, where the record itself follows
+  /// @return whether it could be written
+  bool save(bool running = true);
   /// The run has gone unphysical: the copy in memory is its last good state, and becomes a file.
   void save_last_good() noexcept;
 

@@ -186,6 +186,7 @@ int resume_command(const ResumeArguments& arguments) {
     return static_cast<int>(ExitCode::ok);
   }
 
+  for (const char* part : {".", "tables", "vtk", "restart"}) io::remove_temporaries(folder / part);
   RunLog log(folder / "run.log", arguments.quiet, true);
   if (before.status == "failed" && before.exit_code == static_cast<int>(ExitCode::unphysical))
     log.warning("the run had gone unphysical, and with the same case it will again: " + before.error);

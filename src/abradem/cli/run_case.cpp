@@ -89,7 +89,7 @@ bool run_to_end(Simulation& run, io::RunRecorder& recorder, Checkpoints& checkpo
     }
     const bool stop = StopSignals::requested();
     if (run.finished() || stop)
-      checkpoints.save();
+      checkpoints.save(false);
     else
       checkpoints.look();
     if (recorder.output_due() || stop) {

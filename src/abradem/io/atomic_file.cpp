@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
+#include <vector>
 
 #include "abradem/core/error.h"
 
@@ -47,6 +48,15 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   std::filesystem::rename(temporary, path, error);
   if (error) fail(error.value());
   if (durable) sync_folder(path);
+}
+
+void remove_temporaries(const std::filesystem::path& folder) noexcept {
+  std::error_code error;
+  std::vector<std::filesystem::path> left;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().extension() == ".tmp") left.push_back(entry->path());
+  for (const std::filesystem::path& file : left) std::filesystem::remove(file, error);
 }
 
 }  // namespace abradem::io

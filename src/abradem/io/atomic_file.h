@@ -12,4 +12,7 @@ namespace abradem::io {
 /// @throws IoError naming the path and the reason; nothing is left behind
 void write_file_atomically(const std::filesystem::path& path, std::string_view content, bool durable = false);
 
+/// Removes the temporary files that a killed program left in a folder. Nobody else may be writing there.
+void remove_temporaries(const std::filesystem::path& folder) noexcept;
+
 }  // namespace abradem::io

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "abradem/core/error.h"
+#include "abradem/io/atomic_file.h"
 
 namespace abradem::io {
 
@@ -78,13 +79,10 @@ CsvWriter::CsvWriter(std::filesystem::path path, std::vector<std::string> column
   if (const std::string problem = header_problem(columns_); !problem.empty())
     throw InputError(fmt::format("table '{}': {}", path_.string(), problem));
   line_ = fmt::format("{}\n", fmt::join(columns_, ","));
-  file_ = std::fopen(path_.c_str(), growing.from > 0 ? "rb+" : "wb");
-  if (file_ == nullptr) fail(growing.from > 0 ? "go on with" : "create", errno);
-  if (growing.from == 0) {
-    waiting_ = line_;
-    flush();
-    return;
-  }
+  if (growing.from == 0) write_file_atomically(path_, line_);  // never without its header
+  file_ = std::fopen(path_.c_str(), "rb+");
+  if (file_ == nullptr) fail("go on with", errno);
+  if (growing.from == 0) growing.from = line_.size();
   std::string header(line_.size(), '\0');
   const bool same = std::fread(header.data(), 1, header.size(), file_) == header.size() && header == line_;
   const bool long_enough =
