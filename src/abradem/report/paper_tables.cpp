@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "abradem/analysis/run_in.h"
 #include "abradem/report/paper_figures.h"
@@ -130,13 +131,14 @@ std::vector<std::string> normality_sensitivity(const PaperRuns& runs) {
   for (const PaperReading& reading : runs.readings) {
     std::string text;
     if (reading.seeds.size() > 1) {
-      std::string found;
-      for (const FinishedRun& run : reading.seeds) {
-        const analysis::NormalFrom from =
+      std::map<std::string, int> answers;
+      for (const FinishedRun& run : reading.seeds)
+        ++answers[found_text(
             analysis::normal_from(run.column("revolution"), run.normality("depth_mm", reading.binning),
-                                  run.normality(reading.width_column, reading.binning), kLevel);
-        found += (found.empty() ? "" : ", ") + found_text(from);
-      }
+                                  run.normality(reading.width_column, reading.binning), kLevel))];
+      std::string found;
+      for (const auto& [answer, count] : answers)
+        found += fmt::format("{}{} on {} of them", found.empty() ? "" : ", ", answer, count);
       text += fmt::format(
           "On {} meshes of the same size and other seeds, without the chatter (quasi-static), depth and "
           "width are both normal at 5 %: {}.",
