@@ -29,6 +29,19 @@ double weighted_of(double e) noexcept {
           e * (series::kWeighted[3] + e * (series::kWeighted[4] + e * (series::kWeighted[5]))));
 }
 
+/// Do all nodes that the sphere as new reaches face alike, so that they are one patch? A worn tip presses on
+/// a surface that has taken its shape: which of its spots overlap first says nothing.
+bool faces_one_way(const MeshCandidates& m, std::span<const double> raw) noexcept {
+  constexpr double kCos45Degrees2 = 0.5;
+  for (std::size_t i = 0; i < m.node_count(); ++i) {
+    if (!(raw[i] > 0.0)) continue;
+    const Vec3 b{m.bx[i], m.by[i], m.bz[i]};
+    const double along = dot(b, m.mean_normal);
+    if (!(along > 0.0) || along * along < kCos45Degrees2 * norm2(b)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void PatchEvaluator::evaluate_worn(const MeshCandidates& candidates, const Vec3& c, double R,
@@ -36,7 +49,8 @@ void PatchEvaluator::evaluate_worn(const MeshCandidates& candidates, const Vec3&
   raw_ = excess_;
   correction_.apply(candidates, c, R, tip, raw_, excess_);
   largest_excess_ = *std::max_element(excess_.begin(), excess_.end());
-  if (candidates.nearly_flat() && largest_excess_ < kLargestSeriesExcess &&
+  const bool one_way = candidates.nearly_flat() || faces_one_way(candidates, raw_);
+  if (one_way && largest_excess_ < kLargestSeriesExcess &&
       std::ranges::count_if(excess_, [](double e) { return e > 0.0; }) >= kEnoughNodes) {
     const kernels::NodeSums s = kernels::node_sums(candidates, c, R, excess_, scratch_);
     const Patch patch = make_patch(R * s.G, R * s.M, R * overlap_of(largest_excess_), R, pair);
@@ -63,7 +77,7 @@ void PatchEvaluator::evaluate_worn(const MeshCandidates& candidates, const Vec3&
   if (!overlaps_) return;
   const std::size_t padded =
       (active_ + MeshCandidates::kLanes - 1) / MeshCandidates::kLanes * MeshCandidates::kLanes;
-  if (candidates.nearly_flat())
+  if (one_way)
     single(candidates, padded, R, pair);
   else
     tip_ = &tip, cluster(candidates, c, R, pair), tip_ = nullptr;

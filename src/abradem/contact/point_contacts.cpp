@@ -74,8 +74,7 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
       continue;
     const auto local = static_cast<std::int32_t>(t);
     const double overlap = tip.worn() ? tip.overlap(-offset, R) : R - distance;
-    if (overlap > 0.0)
-      touched_.push_back({closest.point, offset / distance, overlap, closest.feature, local, local});
+    touched_.push_back({closest.point, offset / distance, overlap, closest.feature, local, local});
   }
   if (tip.worn()) {
     raw_ = excess_;
@@ -100,7 +99,7 @@ std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandida
           const auto [qa, qb] = feature_vertices(candidates, q);
           return (qa == a || qb == a) && (qa == b || qb == b);
         });
-    if (!owned) accepted_.push_back(p);
+    if (!owned && p.overlap > 0.0) accepted_.push_back(p);
   }
   return accepted_;
 }
@@ -122,6 +121,7 @@ std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates&
   std::sort(best.begin(), best.end(), stronger);
   accepted_.clear();
   for (const PointContact& p : best) {
+    if (!(p.overlap > 0.0)) continue;
     const auto [a, b] = feature_vertices(candidates, p);
     const auto set_holds_feature = [&, a = a, b = b](const PointContact& q) {
       return std::ranges::any_of(touched_, [&](const PointContact& t) {

@@ -48,7 +48,7 @@ class PointContactFinder {
   void collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip);
   void find_flat_sets(const MeshCandidates& candidates);
 
-  std::vector<PointContact> touched_;  // nearest point of every overlapped triangle
+  std::vector<PointContact> touched_;  // nearest point of every triangle that the ball cuts
   std::vector<PointContact> accepted_;
   std::vector<int> set_;
   std::vector<double> excess_, raw_;

@@ -166,7 +166,7 @@ const std::array kRows{
         .slot = ABRADEM_SLOT(setup->ploughing->ridge_angle),
         .unit = "deg",
         .limits = {.low = 0.0, .high = 1.5533430342749532, .low_excluded = true},
-        .example = "\"20 deg\"",
+        .example = "\"10 deg\"",
         .doc = "Steepest flank that a ridge builds against the first surface."},
     Row{.section = "ploughing",
         .key = "ahead",

@@ -46,6 +46,7 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder)
     : run_(run),
       folder_(std::move(folder)),
       tables_(made(folder_ / "tables")),
+      groove_(run, folder_),
       force_(folder_ / "tables" / "force.csv",
              {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts",
               "normal_along_N", "normal_across_N", "normal_sum_N"}) {
@@ -71,18 +72,20 @@ void RunRecorder::observe(const Simulation& run) {
 }
 
 std::vector<analysis::Contour> RunRecorder::cut_contours() const {
-  std::vector<analysis::Contour> contours =
-      analysis::wall_contours(run_.walls()[*worn_wall_], run_.setup().output.contours);
+  return analysis::wall_contours(run_.walls()[*worn_wall_], run_.setup().output.contours);
+}
+
+void RunRecorder::keep_some_profiles(std::vector<analysis::Contour>& contours) {
   const std::size_t every = std::max<std::size_t>(1, contours.size() / kProfiles);
   for (std::size_t i = 0; i < contours.size(); ++i)
     if (i % every != 0) contours[i].profile.clear();
-  return contours;
 }
 
 void RunRecorder::output(bool last) {
   ledger_ = run_.ledger();
-  const std::vector<analysis::Contour> contours =
-      worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
+  std::vector<analysis::Contour> contours = worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
+  groove_.add(run_, ledger_, revolution_of(run_), contours);
+  keep_some_profiles(contours);
   last_ = analysis::revolution_row(revolution_of(run_), run_.test_time(),
                                    {ledger_.law, ledger_.swept, ledger_.paper}, contours, normal_force_);
   normal_force_ = {};
@@ -142,6 +145,7 @@ void RunRecorder::write_elements() const {
 void RunRecorder::close() {
   run_.on_step({});
   tables_.close();
+  groove_.close(run_);
   force_.close();
   write_elements();
 }

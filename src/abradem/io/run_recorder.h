@@ -8,6 +8,7 @@
 #include "abradem/analysis/revolution_row.h"
 #include "abradem/analysis/statistics.h"
 #include "abradem/io/csv.h"
+#include "abradem/io/groove_tables.h"
 #include "abradem/io/vtp.h"
 #include "abradem/io/wear_tables.h"
 #include "abradem/simulation/simulation.h"
@@ -37,6 +38,7 @@ class RunRecorder {
  private:
   void observe(const simulation::Simulation& run);
   [[nodiscard]] std::vector<analysis::Contour> cut_contours() const;
+  static void keep_some_profiles(std::vector<analysis::Contour>& contours);
   void write_frame();
   void write_elements() const;
 
@@ -46,6 +48,7 @@ class RunRecorder {
   std::size_t watched_particle_ = 0;
   std::uint64_t force_stride_ = 1;
   WearTables tables_;
+  GrooveTables groove_;
   CsvWriter force_;
   analysis::RunningStatistics normal_force_;
   std::vector<PvdEntry> frames_;

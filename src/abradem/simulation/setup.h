@@ -49,9 +49,9 @@ struct WearSetup {
 /// Micro-ploughing: of the volume that leaves a groove, what part is lost and where the rest goes.
 /// docs/theory/ploughing.md
 struct PloughingSetup {
-  double removed_fraction = 1.0;            ///< f_ab: debris / volume that leaves the groove [-], 0 … 1
-  double ridge_angle = 0.3490658503988659;  ///< steepest flank that a ridge builds [rad]
-  double ahead = 0.0;                       ///< share of what is displaced that goes ahead of the contact [-]
+  double removed_fraction = 1.0;             ///< f_ab: debris / volume that leaves the groove [-], 0 … 1
+  double ridge_angle = 0.17453292519943295;  ///< steepest flank that a ridge builds [rad]
+  double ahead = 0.0;  ///< share of what is displaced that goes ahead of the contact [-]
   bool operator==(const PloughingSetup&) const = default;
 };
 

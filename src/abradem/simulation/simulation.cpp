@@ -148,9 +148,9 @@ void Simulation::add_particles() {
     for (std::size_t j = i + 1; j < particles_.size(); ++j) sphere_pairs_.push_back({i, j, {}, false});
 }
 
-/// A map for every guided sphere that some wall wears; as fine as a fifth of its first contact.
+/// A map for every guided sphere that some wall wears; as fine as a quarter of its first contact.
 void Simulation::add_tips() {
-  constexpr double kPointsPerRadius = 5.0;
+  constexpr double kPointsPerRadius = 4.0;
   tips_.resize(particles_.size());
   tip_law_.assign(particles_.size(), 0.0);
   tip_along_.assign(particles_.size(), {});

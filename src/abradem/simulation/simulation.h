@@ -45,6 +45,9 @@ struct Ledger {
   double kappa = 0.0;
 };
 
+/// Recession beyond which a tip counts as worn where its flat is measured [m].
+inline constexpr double kFlatLevel = 1e-8;
+
 /// The contact forces of one step, summed over the walls, for one particle.
 struct ForceSample {
   double time = 0.0;        ///< [s]
@@ -113,6 +116,8 @@ class Simulation {
   [[nodiscard]] const wear::WearingTip* tip(std::size_t p) const noexcept {
     return tips_[p] ? &*tips_[p] : nullptr;
   }
+  /// Its law's volume [m^3].
+  [[nodiscard]] double tip_law_volume(std::size_t p) const noexcept { return tip_law_[p]; }
   /// Directions of the axes s and t of the map of particle p's tip, in the world.
   [[nodiscard]] const Vec3& tip_along(std::size_t p) const noexcept { return tip_along_[p]; }
   [[nodiscard]] Vec3 tip_across(std::size_t p) const noexcept {

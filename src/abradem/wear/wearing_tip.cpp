@@ -12,15 +12,16 @@ namespace abradem::wear {
 
 namespace {
 
-constexpr int kWidestSpan = 64;      // points across a contact, beyond which half as many are enough
-constexpr int kFirstHalf = 16;       // points of a new map from its middle to an edge
+constexpr int kWidestSpan = 64;   // points across a contact, beyond which half as many are enough
+constexpr double kDeepest = 2.0;  // Hertz approaches that the deepest point seen may differ from the wall's
+constexpr int kFirstHalf = 16;    // points of a new map from its middle to an edge
 constexpr double kFurthest = 0.966;  // of R: 75 degrees from the axis
 
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-WearingTip::WearingTip(double R, double cell) : R_(R) {
+WearingTip::WearingTip(double R, double cell) : R_(R), coarsest_(2.0 * cell) {
   shape_.cell = cell;
   set_grid(std::min(kFirstHalf, static_cast<int>(kFurthest * R / cell)));
 }
@@ -85,10 +86,15 @@ void WearingTip::coarsen() {
   ++shape_.revision;
 }
 
-double WearingTip::pressure(const Contact& contact, double excess) const noexcept {
-  const double g = contact.field.R * excess / (1.0 + std::sqrt(1.0 - excess));
+double WearingTip::pressure(const Contact& contact, double deepest, double g) noexcept {
   if (contact.d_e == 0.0) return std::max(g, 0.0);
-  return std::sqrt(std::max(0.0, contact.d_e - 2.0 * (contact.field.deepest - g)));
+  return std::sqrt(std::max(0.0, contact.d_e - 2.0 * (deepest - g)));
+}
+
+/// Overlap below which a point is not pressed, with a margin for what the map has changed since the contact
+/// was found [m].
+double WearingTip::least_overlap(const Contact& contact) noexcept {
+  return contact.d_e == 0.0 ? 0.0 : contact.field.deepest - kDeepest * contact.d_e;
 }
 
 /// Visits the points of the map that lie over a triangle, with the sphere's excess there:
@@ -131,26 +137,39 @@ void WearingTip::cover(const contact::MeshCandidates& m, const Contact& contact,
     }
 }
 
-/// Collects the pressures of all points, on a map that is made larger until the contact lies inside it.
+/// Collects the pressures of all points, on a map that is made larger until the contact lies inside it. The
+/// deepest point counts as the map sees it.
 /// @param collect (add), add(point, excess of the sphere as new, offset along the axis)
 template <typename Collect>
 void WearingTip::gather(const Contact& contact, const Vec3& deepest_at, const Collect& collect) {
-  if (span_ > kWidestSpan) coarsen();
+  if (span_ > kWidestSpan && shape_.cell < coarsest_) coarsen();
   const int furthest = static_cast<int>(kFurthest * R_ / shape_.cell);
   while (true) {
-    for (const Share& share : pressed_)
-      if (share.point < pressure_.size()) pressure_[share.point] = 0.0;
+    for (const Share& share : pressed_) pressure_[share.point] = 0.0;
     pressed_.clear();
-    bool at_edge = false;
+    // First the overlaps, each point once; the pressures follow when the deepest is known.
+    const double least = least_overlap(contact);
+    double deepest = 0.0;
     collect([&](std::size_t k, double raw, double z) {
       const double e = contact::worn_excess(raw, shape_.recession[k], z, R_);
-      const double p = pressure(contact, e);
-      if (!(p > 0.0)) return;
-      if (pressure_[k] == 0.0) pressed_.push_back({k, 0.0});
-      pressure_[k] = std::max(pressure_[k], p);
-      const int i = static_cast<int>(k) % shape_.side(), j = static_cast<int>(k) / shape_.side();
-      at_edge = at_edge || std::min({i, j, shape_.side() - 1 - i, shape_.side() - 1 - j}) < 2;
+      const double g = contact.field.R * e / (1.0 + std::sqrt(1.0 - e));
+      if (pressure_[k] != 0.0 || !(g > least)) return;
+      pressure_[k] = 1.0;
+      pressed_.push_back({k, g});
+      deepest = pressed_.size() == 1 ? g : std::max(deepest, g);
     });
+    bool at_edge = false;
+    std::size_t kept = 0;
+    for (const Share& share : pressed_) {
+      const double p = pressure(contact, deepest, share.weight);
+      pressure_[share.point] = p;
+      if (!(p > 0.0)) continue;
+      pressed_[kept++] = share;
+      const int i = static_cast<int>(share.point) % shape_.side(),
+                j = static_cast<int>(share.point) / shape_.side();
+      at_edge = at_edge || std::min({i, j, shape_.side() - 1 - i, shape_.side() - 1 - j}) < 2;
+    }
+    pressed_.resize(kept);
     const double s = dot(deepest_at, contact.frame.u), t = dot(deepest_at, contact.frame.v);
     const int reached = static_cast<int>(std::ceil(std::max(std::abs(s), std::abs(t)) / shape_.cell)) + 2;
     if (!at_edge && reached <= shape_.half) break;
@@ -185,7 +204,7 @@ void WearingTip::gather(const Contact& contact, const Vec3& deepest_at, const Co
 
 void WearingTip::press_on(const contact::MeshCandidates& candidates, const Contact& contact,
                           const Vec3& deepest_at) {
-  const double g_cut = (contact.field.deepest - 0.5 * contact.d_e) / R_, cut = g_cut * (2.0 - g_cut);
+  const double g_cut = least_overlap(contact) / R_, cut = g_cut * (2.0 - g_cut);
   const std::span<const double> excess = contact.field.raw.empty() ? contact.field.excess : contact.field.raw;
   gather(contact, deepest_at, [&](const auto& add) {
     for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {

@@ -16,11 +16,11 @@ namespace abradem::wear {
 /// Wear arrives as the volume of a contact; the same pressure that shares out the wall's wear shares it among
 /// the points of the map under the contact (`press_on`, then `wear`). Every point of the lattice owns its
 /// square cell and loses cell^2 dr when its recession along the axis grows by dr, so that the map loses the
-/// volume exactly. Where a contact has outgrown the map's fineness the map is made twice as coarse, which
-/// keeps its volume.                                                              docs/theory/pin-wear.md
+/// volume exactly. Where a contact has outgrown the map's fineness the map is once made twice as coarse,
+/// which keeps its volume. docs/theory/pin-wear.md
 class WearingTip {
  public:
-  /// @param R radius of the sphere [m]   @param cell distance of the map's points [m]
+  /// @param R radius of the sphere [m]   @param cell distance of the map's points at first [m]
   WearingTip(double R, double cell);
 
   [[nodiscard]] const contact::TipShape& shape() const noexcept { return shape_; }
@@ -74,7 +74,8 @@ class WearingTip {
              const Visit& visit) const;
   template <typename Collect>
   void gather(const Contact& contact, const Vec3& deepest_at, const Collect& collect);
-  [[nodiscard]] double pressure(const Contact& contact, double excess) const noexcept;
+  [[nodiscard]] static double pressure(const Contact& contact, double deepest, double g) noexcept;
+  [[nodiscard]] static double least_overlap(const Contact& contact) noexcept;
   [[nodiscard]] double area(std::size_t k) const noexcept;
   void grow(int half);
   void coarsen();
@@ -83,7 +84,7 @@ class WearingTip {
   }
   void set_grid(int half);
 
-  double R_;
+  double R_, coarsest_;
   contact::TipShape shape_;
   std::vector<double> pressure_;  // scratch: of each point of the map
   std::vector<Share> pressed_;
