@@ -223,10 +223,10 @@ const std::vector<SphereWall::Spot>& SphereWall::find_spots(const Wall& wall) {
 /// Takes the pending wear off the tip. It is shared out by the pressure of this moment for all that came
 /// since the last time; a batch is so small that the pressure has not changed.
 void SphereWall::shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair) {
-  constexpr double kBatch = 0.02;  // of the Hertz approach, in mean recession
+  constexpr double kBatch = 0.02, kMost = 0.05;  // of the Hertz approach, in mean recession
   const double R = tip.radius();
   const std::vector<Spot>& all = find_spots(wall);
-  double force = 0.0, batch = 0.0;
+  double force = 0.0, batch = 0.0, left = 0.0;
   for (const Spot& spot : all) force += spot.force;
   if (!(force > 0.0)) return;
   for (const Spot& spot : all) {
@@ -242,11 +242,15 @@ void SphereWall::shape_tip(wear::WearingTip& tip, const Wall& wall, const contac
           {overlap_field(wall, R, spot.deepest), tip_, by_overlap ? 0.0 : d_e, mask_of(wall, spot.part)},
           -R * spot.n);
     }
-    tip.wear(tip_pending_ * (spot.force / force));
-    batch += kBatch * d_e * tip.pressed_area();
+    // Where the tip just rides on a bump the rest waits for a place with more of it under load.
+    const double most = kMost * d_e * tip.pressed_area(), share = tip_pending_ * (spot.force / force);
+    const double volume = std::min(share, most);
+    tip.wear(volume);
+    left += share - volume;
+    batch = std::max(batch, kBatch * d_e * tip.pressed_area());
   }
-  tip_pending_ = 0.0;
-  tip_batch_ = batch;
+  tip_pending_ = left;
+  tip_batch_ = std::max(batch, 0.5 * tip_batch_);
 }
 
 void SphereWall::plough(Wall& wall, const wear::Ploughing& ploughing, const Displaced& displaced, double R,
