@@ -20,10 +20,10 @@ using std::numbers::pi;
 simulation::Setup hard_plate(double R, double load, double pin_coefficient, double cycles, bool plane,
                              simulation::ContactRule rule, double size) {
   PinOnPlate pin;
-  pin.shear_modulus = 300e9;
+  pin.shear_modulus = 100e9;
   pin.amplitude = 0.5e-3;
   simulation::Setup s = pin.setup();
-  s.materials[1].shear_modulus = 300e9;
+  s.materials[1].shear_modulus = 100e9;
   s.wear = {{"iron_ore", "mild_steel", 0.0}, {"mild_steel", "iron_ore", pin_coefficient}};
   s.particles[0].radius = R;
   s.particles[0].position = {0.0, 0.0, R};
@@ -37,7 +37,7 @@ simulation::Setup hard_plate(double R, double load, double pin_coefficient, doub
   if (plane) wall.mesh.shape = simulation::MeshShape::plane;
   s.run.end = {cycles, true};
   s.output.every = s.run.end;
-  s.run.increment = 5e-6;
+  s.run.increment = 20e-6;
   return s;
 }
 
@@ -56,8 +56,10 @@ TEST_P(SphereOnHardDisc, HasTheFlatOfTheClosedForm) {
   const Table table("giwm_sphere_pin.csv");
   const std::vector<double> load = table.numbers("load_N"), way = table.numbers("distance_m"),
                             volume = table.numbers("V_mm3"), height = table.numbers("h_exact_um");
-  constexpr double R = 0.794e-3, kCycles = 10.0, kWay = kCycles * 4.0 * 0.5e-3;  // of the cosine's speed
+  constexpr double R = 0.794e-3, kCycles = 20.0, kWay = kCycles * 4.0 * 0.5e-3;  // of the cosine's speed
   for (std::size_t i = 0; i < load.size(); ++i) {
+    // All of the table on the plane, its middle on meshes.
+    if (!c.plane && (load[i] != 0.4 || way[i] < 10.0 || way[i] > 100.0)) continue;
     // The same product of coefficient and distance in a shorter way.
     const double alpha = 1e-14 * way[i] / kWay;
     simulation::Simulation run(hard_plate(R, load[i], alpha, kCycles, c.plane, c.rule, c.size));
@@ -75,18 +77,19 @@ TEST_P(SphereOnHardDisc, HasTheFlatOfTheClosedForm) {
     measured(name + "volume", V, 0.01);
     measured(name + "height worn off", h, 0.02);
     measured(name + "length of the flat", flat, 0.1);
+    EXPECT_LT(std::abs(flat), 0.1);
     EXPECT_LT(std::abs(V), 0.01);
     EXPECT_LT(std::abs(h), 0.02);
   }
 }
 INSTANTIATE_TEST_SUITE_P(
     Floors, SphereOnHardDisc,
-    testing::Values(HardDisc{"analytic plane", true, simulation::ContactRule::patch, 0.0},
-                    HardDisc{"patch, triangles 0.02 mm", false, simulation::ContactRule::patch, 0.02e-3},
-                    HardDisc{"patch, triangles 0.2 mm", false, simulation::ContactRule::patch, 0.2e-3},
-                    HardDisc{"resolved, triangles 0.05 mm", false, simulation::ContactRule::resolved, 0.05e-3},
-                    HardDisc{"per_triangle, triangles 0.02 mm", false, simulation::ContactRule::per_triangle,
-                             0.02e-3}));
+    testing::Values(
+        HardDisc{"analytic plane", true, simulation::ContactRule::patch, 0.0},
+        HardDisc{"patch, triangles 0.03 mm", false, simulation::ContactRule::patch, 0.03e-3},
+        HardDisc{"patch, triangles 0.2 mm", false, simulation::ContactRule::patch, 0.2e-3},
+        HardDisc{"resolved, triangles 0.05 mm", false, simulation::ContactRule::resolved, 0.05e-3},
+        HardDisc{"per_triangle, triangles 0.05 mm", false, simulation::ContactRule::per_triangle, 0.05e-3}));
 
 /// The laboratory's groove with a stiff pin that wears, in a few passes on a plate.
 struct WornPin {
@@ -119,9 +122,6 @@ TEST_P(WornPinGroove, IsThatOfTheHalfSpace) {
   const std::string name = fmt::format("pin to disc {}: ", c.ratio);
   measured(name + "depth against the half-space", depth, 0.03);
   measured(name + "width against the half-space", width, 0.03);
-  measured(name + "depth [um]", 1e6 * groove.depth, 0.0);
-  measured(name + "width [mm]", 1e3 * groove.width, 0.0);
-  measured(name + "flat along, across [mm]", 1e3 * run.tip(0)->flat(1e-8).along_s, 1e3 * run.tip(0)->flat(1e-8).along_t);
   EXPECT_LT(std::abs(depth), 0.03);
   EXPECT_LT(std::abs(width), 0.03);
   EXPECT_LT(run.ledger().residual, 1e-9);

@@ -58,7 +58,6 @@ class Checker {
     check_names();
     check_contact_pairs();
     check_wear_pairs();
-    check_pin_wear();
     check_ploughing();
     for (const WallSetup& wall : setup_.walls) check_wall(wall);
     for (const ParticleSetup& particle : setup_.particles) check_particle(particle);
@@ -176,25 +175,6 @@ class Checker {
           "wear",
           "wear is counted, but no wall changes its shape; set deformation = \"conserving\" on the wall that "
           "wears");
-  }
-
-  /// A particle that wears is one whose worn end stays where it is: a guided one.
-  void check_pin_wear() {
-    if (!good("wear") || !good("particle") || !good("wall")) return;
-    for (const WearSetup& w : setup_.wear) {
-      if (!(w.wear_coefficient > 0.0)) continue;
-      const bool by_wall =
-          std::ranges::any_of(setup_.walls, [&](const auto& x) { return x.material == w.abrader; });
-      const bool wall =
-          std::ranges::any_of(setup_.walls, [&](const auto& x) { return x.material == w.worn; });
-      for (const ParticleSetup& p : setup_.particles)
-        if (by_wall && !wall && p.material == w.worn && p.guide == Guide::none)
-          note(path_of("wear", w.abrader + "/" + w.worn),
-               fmt::format(
-                   "particle '{}' does not wear: only a guided one does, whose contact stays on the same "
-                   "spot; set guide = \"vertical\" or leave the pair out",
-                   p.name));
-    }
   }
 
   void check_ploughing() {

@@ -220,37 +220,47 @@ const std::vector<SphereWall::Spot>& SphereWall::find_spots(const Wall& wall) {
   return spots_;
 }
 
-/// Takes the pending wear off the tip. It is shared out by the pressure of this moment for all that came
-/// since the last time; a batch is so small that the pressure has not changed.
-void SphereWall::shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair) {
-  constexpr double kBatch = 0.02, kMost = 0.05;  // of the Hertz approach, in mean recession
+/// Takes the pending wear off the tip, in pieces so small that the pressure hardly changes in one. It is
+/// shared out by the pressure of this moment for all that came since the last time. Where the tip just rides
+/// on a bump, all but one piece waits for a place with more of it under load, unless an output is due.
+void SphereWall::shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair,
+                           bool due) {
+  constexpr double kBatch = 0.02, kPiece = 0.05;  // of the Hertz approach, in mean recession
+  constexpr int kMostPieces = 30;
   const double R = tip.radius();
   const std::vector<Spot>& all = find_spots(wall);
-  double force = 0.0, batch = 0.0, left = 0.0;
+  double force = 0.0, area = 0.0, batch = 0.0, left = 0.0;
   for (const Spot& spot : all) force += spot.force;
   if (!(force > 0.0)) return;
   for (const Spot& spot : all) {
     const double d_e = contact::hertz_overlap(pair, R, spot.force);
-    const bool by_overlap = wall.setup().footprint == Footprint::overlap;
-    if (wall.is_plane()) {
-      const MeshSetup& plane = wall.setup().mesh;
-      tip.press_on_plane({{{}, R, spot.deepest, tip_, {}, centre_}, tip_, by_overlap ? 0.0 : d_e},
-                         dot(centre_ - plane.position, plane.normal), plane.normal, -R * spot.n);
-    } else {
-      tip.press_on(
-          candidates_,
-          {overlap_field(wall, R, spot.deepest), tip_, by_overlap ? 0.0 : d_e, mask_of(wall, spot.part)},
-          -R * spot.n);
+    double volume = tip_pending_ * (spot.force / force);
+    for (int piece = 0; piece < kMostPieces && volume > 0.0; ++piece) {
+      press(tip, wall, spot, wall.setup().footprint == Footprint::overlap ? 0.0 : d_e);
+      const double part = std::min(volume, kPiece * d_e * tip.pressed_area());
+      tip.wear(part);
+      volume -= part;
+      if (!due && tip.pressed_area() < 0.5 * tip_area_) break;
     }
-    // Where the tip just rides on a bump the rest waits for a place with more of it under load.
-    const double most = kMost * d_e * tip.pressed_area(), share = tip_pending_ * (spot.force / force);
-    const double volume = std::min(share, most);
-    tip.wear(volume);
-    left += share - volume;
-    batch = std::max(batch, kBatch * d_e * tip.pressed_area());
+    left += volume;
+    area += tip.pressed_area();
+    batch += kBatch * d_e * tip.pressed_area();
   }
   tip_pending_ = left;
-  tip_batch_ = std::max(batch, 0.5 * tip_batch_);
+  tip_area_ = std::max(area, 0.9 * tip_area_);
+  tip_batch_ = batch;
+}
+
+void SphereWall::press(wear::WearingTip& tip, const Wall& wall, const Spot& spot, double d_e) {
+  const double R = tip.radius();
+  if (wall.is_plane()) {
+    const MeshSetup& plane = wall.setup().mesh;
+    tip.press_on_plane({{{}, R, spot.deepest, tip_, {}, centre_}, tip_, d_e},
+                       dot(centre_ - plane.position, plane.normal), plane.normal, -R * spot.n);
+  } else {
+    tip.press_on(candidates_, {overlap_field(wall, R, spot.deepest), tip_, d_e, mask_of(wall, spot.part)},
+                 -R * spot.n);
+  }
 }
 
 void SphereWall::plough(Wall& wall, const wear::Ploughing& ploughing, const Displaced& displaced, double R,

@@ -89,7 +89,7 @@ class SphereWall {
     for (const Touch& touch : touches_)
       volume += wear::archard_volume(alpha_s, {std::max(touch.force.F_n, 0.0), slip_of(touch)});
     tip_pending_ += volume;
-    if (due || tip_pending_ > tip_batch_) shape_tip(tip, wall, pair);
+    if (due || tip_pending_ > tip_batch_) shape_tip(tip, wall, pair, due);
     return volume;
   }
   /// Wear of the tip not yet taken off [m^3].
@@ -149,7 +149,8 @@ class SphereWall {
   const std::vector<Spot>& find_spots(const Wall& wall);
   [[nodiscard]] std::span<const char> mask_of(const Wall& wall, int part);
   [[nodiscard]] wear::OverlapField overlap_field(const Wall& wall, double R, double deepest) const;
-  void shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair);
+  void shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair, bool due);
+  void press(wear::WearingTip& tip, const Wall& wall, const Spot& spot, double d_e);
   void deposit_one(Wall& wall, const Touch& touch, double dV, double R, const contact::PairProperties& pair);
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
   contact::TangentialHistory& recall(const Touch& touch, ContactRule rule);
@@ -173,8 +174,8 @@ class SphereWall {
   Vec3 axis_;  // towards the surface, from the last contact
   double centroid_volume_ = 0.0;
   contact::Tip tip_;
-  Vec3 centre_;                                 // of the last search
-  double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
+  Vec3 centre_;                                                  // of the last search
+  double tip_pending_ = 0.0, tip_batch_ = 0.0, tip_area_ = 0.0;  // worn off the tip in one go [m^3]
   wear::RidgeBuilder ridges_;
   double unpiled_ = 0.0, slid_ = 0.0;                                 // since the last pile [m^3, m]
   std::vector<std::pair<wear::PloughingContact, double>> ploughing_;  // the last contacts, and their forces
