@@ -148,9 +148,16 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
   if (record.ledger.residual > 1e-9)
     warn(fmt::format("the ledger does not close: residual {:.3g}", record.ledger.residual));
   for (const simulation::WearSetup& wear : run.setup().wear)
-    if (std::ranges::none_of(run.setup().walls, [&](const auto& wall) { return wall.material == wear.worn; }))
-      warn(fmt::format("[wear.\"{}/{}\"] has no effect: no wall is made of {}, and particles do not wear",
-                       wear.abrader, wear.worn, wear.worn));
+    if (std::ranges::none_of(run.setup().walls,
+                             [&](const auto& wall) { return wall.material == wear.worn; }) &&
+        std::ranges::none_of(run.setup().particles, [&](const auto& particle) {
+          return particle.material == wear.worn && particle.guide != simulation::Guide::none;
+        }))
+      warn(
+          fmt::format("[wear.\"{}/{}\"] has no effect: no wall is made of {}, and only guided particles wear",
+                      wear.abrader, wear.worn, wear.worn));
+  if (record.ledger.tip_residual > 1e-9)
+    warn(fmt::format("the pin's ledger does not close: residual {:.3g}", record.ledger.tip_residual));
   if (record.status == "completed" && run.law_volume() == 0.0 &&
       std::ranges::any_of(run.setup().wear, [](const auto& wear) { return wear.wear_coefficient > 0.0; }))
     warn("a wear coefficient is given, but nothing was worn: does a wall slide under a particle?");

@@ -29,12 +29,15 @@ double patch_stiffness(const PairProperties& pair, double R, double delta) noexc
 }
 
 std::span<const Patch> PatchEvaluator::evaluate(const MeshCandidates& candidates, const Vec3& c, double R,
-                                                const PairProperties& pair) {
+                                                const PairProperties& pair, const Tip& tip) {
   patches_.clear();
   clusters_.clear();
   excess_.resize(candidates.x.size());
   largest_excess_ = kernels::node_excess(candidates, c, R, excess_);
-  if (!evaluate_nodes(candidates, c, R, pair)) evaluate_triangles(candidates, c, R, pair);
+  if (tip.worn())
+    evaluate_worn(candidates, c, R, pair, tip);
+  else if (!evaluate_nodes(candidates, c, R, pair))
+    evaluate_triangles(candidates, c, R, pair);
   return patches_;
 }
 

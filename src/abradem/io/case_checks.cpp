@@ -60,6 +60,7 @@ class Checker {
     check_names();
     check_contact_pairs();
     check_wear_pairs();
+    check_ploughing();
     for (const WallSetup& wall : setup_.walls) check_wall(wall);
     for (const ParticleSetup& particle : setup_.particles) check_particle(particle);
     check_run();
@@ -176,6 +177,16 @@ class Checker {
           "wear",
           "wear is counted, but no wall changes its shape; set deformation = \"conserving\" on the wall that "
           "wears");
+  }
+
+  void check_ploughing() {
+    if (!setup_.ploughing || setup_.ploughing->removed_fraction == 1.0 || !good("wall")) return;
+    for (const WallSetup& wall : setup_.walls)
+      if (wall.deformation == DeformationRule::paper)
+        error(
+            path_of("wall", wall.name) + ".deformation",
+            "the deformation rule paper moves whole elements inwards and has no ridges; with [ploughing] use "
+            "deformation = \"conserving\"");
   }
 
   // ---- walls

@@ -52,6 +52,7 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder, State st
       folder_(std::move(folder)),
       state_(std::move(state)),
       tables_(made(folder_ / "tables"), state_.tables),
+      groove_(run, folder_, state_.groove_tables),
       force_(folder_ / "tables" / "force.csv",
              {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts",
               "normal_along_N", "normal_across_N", "normal_sum_N"},
@@ -77,6 +78,7 @@ bool RunRecorder::output_due() const noexcept {
 RunRecorder::State RunRecorder::state() const {
   State now = state_;
   now.tables = tables_.positions();
+  now.groove_tables = groove_.positions();
   now.force_table = force_.position();
   now.normality_table = normality_->position();
   return now;
@@ -84,6 +86,7 @@ RunRecorder::State RunRecorder::state() const {
 
 void RunRecorder::sync() {
   tables_.sync();
+  groove_.sync();
   normality_->sync();
   force_.sync();
 }
@@ -100,18 +103,20 @@ void RunRecorder::observe(const Simulation& run) {
 }
 
 std::vector<analysis::Contour> RunRecorder::cut_contours() const {
-  std::vector<analysis::Contour> contours =
-      analysis::wall_contours(run_.walls()[*worn_wall_], run_.setup().output.contours);
+  return analysis::wall_contours(run_.walls()[*worn_wall_], run_.setup().output.contours);
+}
+
+void RunRecorder::keep_some_profiles(std::vector<analysis::Contour>& contours) {
   const std::size_t every = std::max<std::size_t>(1, contours.size() / kProfiles);
   for (std::size_t i = 0; i < contours.size(); ++i)
     if (i % every != 0) contours[i].profile.clear();
-  return contours;
 }
 
 void RunRecorder::output(bool last) {
   state_.ledger = run_.ledger();
-  const std::vector<analysis::Contour> contours =
-      worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
+  std::vector<analysis::Contour> contours = worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
+  groove_.add(run_, state_.ledger, revolution_of(run_), contours);
+  keep_some_profiles(contours);
   state_.last = analysis::revolution_row(revolution_of(run_), run_.test_time(),
                                          {state_.ledger.law, state_.ledger.swept, state_.ledger.paper},
                                          contours, state_.normal_force);
@@ -120,6 +125,7 @@ void RunRecorder::output(bool last) {
   tables_.add(*state_.last, contours);
   normality_->add(state_.last->revolution, contours);
   tables_.flush();
+  groove_.flush();
   normality_->flush();
   force_.flush();
   if (last || run_.setup().output.frames == simulation::Frames::all) write_frame();
@@ -180,6 +186,7 @@ void RunRecorder::close() {
   run_.on_step({});
   tables_.close();
   normality_->close();
+  groove_.close(run_);
   force_.close();
   write_elements();
 }

@@ -46,6 +46,15 @@ struct WearSetup {
   bool operator==(const WearSetup&) const = default;
 };
 
+/// Micro-ploughing: of the volume that leaves a groove, what part is lost and where the rest goes.
+/// docs/theory/ploughing.md
+struct PloughingSetup {
+  double removed_fraction = 1.0;             ///< f_ab: debris / volume that leaves the groove [-], 0 … 1
+  double ridge_angle = 0.17453292519943295;  ///< steepest flank that a ridge builds [rad]
+  double ahead = 0.0;  ///< share of what is displaced that goes ahead of the contact [-]
+  bool operator==(const PloughingSetup&) const = default;
+};
+
 enum class MeshShape { annulus, disc, plate, plane, file };
 struct MeshSetup {
   MeshShape shape = MeshShape::annulus;
@@ -135,7 +144,7 @@ enum class Frames { all, ends, none };
 struct OutputSetup {
   Duration every{1.0, true};  ///< frames and table rows
   Frames frames = Frames::all;
-  int contours = 360;  ///< sections of the worn surface per output
+  int contours = 360;               ///< sections of the worn surface per output
   double checkpoint_every = 600.0;  ///< wall-clock time between checkpoints [s]; 0: none on the way
   bool operator==(const OutputSetup&) const = default;
 };
@@ -186,6 +195,7 @@ struct Setup {
   std::vector<MaterialSetup> materials;
   std::vector<ContactSetup> contacts;
   std::vector<WearSetup> wear;
+  std::optional<PloughingSetup> ploughing;
   std::vector<WallSetup> walls;
   std::vector<ParticleSetup> particles;
   RunSetup run;

@@ -41,6 +41,7 @@ void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
 }
 
 void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
+  centre_ = c;
   if (wall.is_plane()) {
     touches_.clear();
     touch_plane(wall, c, R, pair);
@@ -51,7 +52,7 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
   touches_.clear();
 
   if (wall.setup().contact == ContactRule::patch) {
-    const auto patches = patches_.evaluate(candidates_, c, R, pair);
+    const auto patches = patches_.evaluate(candidates_, c, R, pair, tip_);
     for (std::size_t i = 0; i < patches.size(); ++i) {
       const contact::Patch& p = patches[i];
       if (!(p.elastic_force > 0.0)) continue;
@@ -68,7 +69,7 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
   } else {
     const bool resolved = wall.setup().contact == ContactRule::resolved;
     const auto points =
-        resolved ? points_.resolved(candidates_, c, R) : points_.per_triangle(candidates_, c, R);
+        resolved ? points_.resolved(candidates_, c, R, tip_) : points_.per_triangle(candidates_, c, R, tip_);
     for (const contact::PointContact& p : points)
       touches_.push_back({.n = p.n,
                           .point = p.point,
@@ -85,7 +86,8 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
 
 void SphereWall::touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
   const MeshSetup& plane = wall.setup().mesh;
-  const double overlap = R - dot(c - plane.position, plane.normal);
+  double overlap = R - dot(c - plane.position, plane.normal);
+  if (tip_.worn()) overlap = tip_.overlap((overlap - R) * plane.normal, R);
   if (overlap <= 0.0) return;
   touches_.push_back({.n = plane.normal,
                       .point = c - R * plane.normal,
@@ -159,15 +161,8 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
     return;
   }
 
-  std::span<const char> mask;
-  const bool resolved = wall.setup().contact == ContactRule::resolved;
-  const std::span<const int> parts = resolved ? points_.sets() : patches_.clusters();
-  if (!parts.empty()) {
-    mask_.resize(candidates_.triangle_count());
-    for (std::size_t t = 0; t < mask_.size(); ++t) mask_[t] = parts[t] == touch.part;
-    mask = mask_;
-  }
-  const wear::OverlapField field{resolved ? points_.node_excess() : patches_.node_excess(), R, touch.deepest};
+  const std::span<const char> mask = mask_of(wall, touch.part);
+  const wear::OverlapField field = overlap_field(wall, R, touch.deepest);
   const wear::FootprintShares& shares =
       wall.setup().footprint == Footprint::hertz
           ? footprint_.hertz(candidates_, field, contact::hertz_overlap(pair, R, touch.force.F_n), paper,
@@ -193,6 +188,113 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
         surface.deposit(candidates_.triangle[t], scale * w, scale * shares.at0[t], scale * shares.at1[t],
                         scale * shares.at2[t]);
   }
+}
+
+/// Triangles of one contact (0: not of it); empty: all.
+std::span<const char> SphereWall::mask_of(const Wall& wall, int part) {
+  const bool resolved = wall.setup().contact == ContactRule::resolved;
+  const std::span<const int> parts = resolved ? points_.sets() : patches_.clusters();
+  if (parts.empty() || wall.setup().contact == ContactRule::per_triangle) return {};
+  mask_.resize(candidates_.triangle_count());
+  for (std::size_t t = 0; t < mask_.size(); ++t) mask_[t] = parts[t] == part;
+  return mask_;
+}
+
+wear::OverlapField SphereWall::overlap_field(const Wall& wall, double R, double deepest) const {
+  const bool patch = wall.setup().contact == ContactRule::patch;
+  return {patch ? patches_.node_excess() : points_.node_excess(), R,      deepest, tip_,
+          patch ? patches_.raw_excess() : points_.raw_excess(),   centre_};
+}
+
+const std::vector<SphereWall::Spot>& SphereWall::find_spots(const Wall& wall) {
+  spots_.clear();
+  const bool as_one = wall.setup().contact == ContactRule::per_triangle && !wall.is_plane();
+  for (const Touch& touch : touches_) {
+    const double force = std::max(touch.force.F_n, 0.0);
+    if (!(force > 0.0)) continue;
+    if (spots_.empty() || !as_one) spots_.push_back({{}, 0.0, 0.0, touch.part});
+    Spot& spot = spots_.back();
+    spot.n += force * touch.n;
+    spot.force += force;
+    spot.deepest = std::max(spot.deepest, touch.deepest);
+  }
+  for (Spot& spot : spots_) spot.n = normalized(spot.n);
+  return spots_;
+}
+
+/// Takes the pending wear off the tip, in pieces so small that the pressure hardly changes in one. It is
+/// shared out by the pressure of this moment for all that came since the last time. Where the tip just rides
+/// on a bump, all but one piece waits for a place with more of it under load, unless an output is due.
+void SphereWall::shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair,
+                           bool due) {
+  constexpr double kBatch = 0.02, kPiece = 0.05;  // of the Hertz approach, in mean recession
+  constexpr int kMostPieces = 30;
+  const double R = tip.radius();
+  const std::vector<Spot>& all = find_spots(wall);
+  double force = 0.0, area = 0.0, batch = 0.0, left = 0.0;
+  for (const Spot& spot : all) force += spot.force;
+  if (!(force > 0.0)) return;
+  for (const Spot& spot : all) {
+    const double d_e = contact::hertz_overlap(pair, R, spot.force);
+    double volume = tip_pending_ * (spot.force / force);
+    for (int piece = 0; piece < kMostPieces && volume > 0.0; ++piece) {
+      press(tip, wall, spot, wall.setup().footprint == Footprint::overlap ? 0.0 : d_e);
+      const double part = std::min(volume, kPiece * d_e * tip.pressed_area());
+      tip.wear(part);
+      volume -= part;
+      if (!due && tip.pressed_area() < 0.5 * tip_area_) break;
+    }
+    left += volume;
+    area += tip.pressed_area();
+    batch += kBatch * d_e * tip.pressed_area();
+  }
+  tip_pending_ = left;
+  tip_area_ = std::max(area, 0.9 * tip_area_);
+  tip_batch_ = batch;
+}
+
+void SphereWall::press(wear::WearingTip& tip, const Wall& wall, const Spot& spot, double d_e) {
+  const double R = tip.radius();
+  if (wall.is_plane()) {
+    const MeshSetup& plane = wall.setup().mesh;
+    tip.press_on_plane({{{}, R, spot.deepest, tip_, {}, centre_}, tip_, d_e},
+                       dot(centre_ - plane.position, plane.normal), plane.normal, -R * spot.n);
+  } else {
+    tip.press_on(candidates_, {overlap_field(wall, R, spot.deepest), tip_, d_e, mask_of(wall, spot.part)},
+                 -R * spot.n);
+  }
+}
+
+void SphereWall::plough(Wall& wall, const wear::Ploughing& ploughing, const Displaced& displaced, double R,
+                        const contact::PairProperties& pair) {
+  unpiled_ += displaced.volume;
+  slid_ += displaced.way;
+  const std::vector<Spot>& now = find_spots(wall);
+  if (!now.empty()) {
+    ploughing_.clear();
+    for (const Spot& spot : now) {
+      const Vec3 forward = normalized(displaced.v - dot(displaced.v, spot.n) * spot.n);
+      ploughing_.push_back(
+          {{centre_, R, tip_, spot.n, forward, spot.deepest, contact::hertz_overlap(pair, R, spot.force)},
+           spot.force});
+    }
+  }
+  if (unpiled_ == 0.0 || ploughing_.empty()) return;
+  double length = ridges_.half_length(), force = 0.0;
+  for (const auto& [contact, F_n] : ploughing_) {
+    length = std::max(length, contact::contact_radius(R, contact.d_e));
+    force += F_n;
+  }
+  if (!displaced.due && !now.empty() && slid_ < displaced.spacing * length) return;
+  double left = 0.0;
+  for (const auto& [contact, F_n] : ploughing_) {
+    const double share = unpiled_ * (F_n / force);
+    left += contact.forward == Vec3{}
+                ? share
+                : ridges_.pile_up(wall.surface(), wall.view(), contact, ploughing, share);
+  }
+  unpiled_ = left;
+  slid_ = 0.0;
 }
 
 /// What fell to a node was lost by the triangles around it, each by its part of the node's area.
@@ -300,6 +402,8 @@ void SphereWall::note_nodes() {
 }
 
 bool SphereWall::restore(const Wall& wall) {
+  for (Pressing& pressing : ploughing_) pressing.contact.tip.shape = tip_.shape;
+  patches_.restore(tip_);
   if (wall.is_plane()) return true;
   if (!candidates_.restore(wall.surface().mesh())) return false;
   const std::size_t nodes = candidates_.node_count(), padded = candidates_.x.size();
@@ -311,6 +415,8 @@ bool SphereWall::restore(const Wall& wall) {
 
 void SphereWall::add_to(core::StateHash& hash) const {
   for (const Memory& m : memory_) hash.add(m.history.s);
+  if (tip_pending_ != 0.0) hash.add(tip_pending_);
+  if (unpiled_ != 0.0) hash.add(unpiled_);
 }
 
 double SphereWall::take_centroid_volume(const Wall& wall) {
