@@ -216,7 +216,7 @@ double shapiro_wilk_p(double one_minus_W, std::size_t count) {
     const double W = std::max(0.75, 1.0 - one_minus_W);
     return 6.0 / std::numbers::pi * (std::asin(std::sqrt(W)) - std::asin(std::sqrt(0.75)));
   }
-  double y = std::log(one_minus_W), mean, sd;
+  double y = std::log(one_minus_W), mean = 0.0, sd = 1.0;
   if (count <= 11) {
     const double gamma = 0.459 * n - 2.273;
     if (y >= gamma) return 0.0;

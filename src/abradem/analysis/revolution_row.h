@@ -30,6 +30,16 @@ struct RevolutionRow {
          force_max = 0.0;  ///< [N] normal force in the interval
   double depth_p_chi2 = 0.0,
          width_p_chi2 = 0.0;  ///< [-] ChiSquaredNormality::p; NaN where no test can be made
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("revolution", self.revolution)("time", self.time)("law_volume", self.law_volume)(
+        "swept_volume", self.swept_volume)("paper_volume", self.paper_volume)("depth_mean", self.depth_mean)(
+        "depth_sd", self.depth_sd)("depth_min", self.depth_min)("depth_max", self.depth_max)(
+        "width_mean", self.width_mean)("width_sd", self.width_sd)("area_mean", self.area_mean)(
+        "force_mean", self.force_mean)("force_sd", self.force_sd)("force_min", self.force_min)(
+        "force_max", self.force_max)("depth_p_chi2", self.depth_p_chi2)("width_p_chi2", self.width_p_chi2);
+  }
 };
 
 /// Assembles the row. Every contour counts, also those without wear; without contours (without forces) their

@@ -135,7 +135,9 @@ void describe_part(RunIn& r, std::span<const double> x, std::span<const double> 
 
 }  // namespace
 
-RunIn find_run_in(std::span<const double> x, std::span<const double> values, const RunInOptions& options) {
+RunIn find_run_in(std::span<const double> revolutions, std::span<const double> values,
+                  const RunInOptions& options) {
+  const std::span<const double> x = revolutions;
   check(x, values, options);
   RunIn r;
   const std::size_t n = x.size(), shortest = static_cast<std::size_t>(options.shortest);

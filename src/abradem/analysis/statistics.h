@@ -62,6 +62,12 @@ class RunningStatistics {
   [[nodiscard]] double min() const noexcept { return count_ > 0 ? min_ : kNone; }
   [[nodiscard]] double max() const noexcept { return count_ > 0 ? max_ : kNone; }
 
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("count", self.count_)("mean", self.mean_)("squares", self.squares_)("min", self.min_)("max",
+                                                                                                  self.max_);
+  }
+
  private:
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::int64_t count_ = 0;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abradem/cli/batch.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -19,6 +16,7 @@
 
 #include "abradem/cli/child_processes.h"
 #include "abradem/cli/output_folder.h"
+#include "abradem/cli/path_lock.h"
 #include "abradem/cli/progress.h"
 #include "abradem/cli/stop_signals.h"
 #include "abradem/core/error.h"
@@ -26,6 +24,7 @@
 #include "abradem/io/atomic_file.h"
 #include "abradem/io/case_file.h"
 #include "abradem/io/case_problems.h"
+#include "abradem/io/checkpoint.h"
 #include "abradem/io/run_record.h"
 #include "abradem/report/manifest.h"
 
@@ -55,35 +54,6 @@ std::string some_of(const std::vector<std::string>& names) {
   if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
   return text;
 }
-
-/// A folder kept for one user as long as this lives, and for the children that inherit it. Where the file
-/// system knows no locks there is none.
-class FolderLock {
- public:
-  enum class Kind { shared, exclusive };
-  FolderLock(const fs::path& folder, Kind kind) : handle_(open(folder.c_str(), O_RDONLY | O_DIRECTORY)) {
-    if (handle_ < 0) return;
-    // The children of one that was killed need a moment to end.
-    constexpr int kTries = 60;
-    constexpr auto kPause = std::chrono::milliseconds(50);
-    const int operation = (kind == Kind::shared ? LOCK_SH : LOCK_EX) | LOCK_NB;
-    for (int i = 0; i < kTries; ++i) {
-      if (flock(handle_, operation) == 0 || errno != EWOULDBLOCK) return;
-      if (StopSignals::requested()) break;
-      std::this_thread::sleep_for(kPause);
-    }
-    close(handle_);
-    throw InputError(fmt::format("another abradem works on '{}'; wait for it to end", folder.string()));
-  }
-  ~FolderLock() {
-    if (handle_ >= 0) close(handle_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int handle_;
-};
 
 bool is_empty_or_missing(const fs::path& folder) {
   std::error_code error;
@@ -168,6 +138,14 @@ std::string error_in(const std::string& said) {
   constexpr std::string_view kPrefix = "abradem: error: ";
   if (text.starts_with(kPrefix)) text.erase(0, kPrefix.size());
   return text;
+}
+
+/// Is there a checkpoint of these inputs by this program to go on from? Then the run is the same as one that
+/// was never stopped.
+bool can_go_on(const PreparedJob& prepared, const fs::path& folder) {
+  const std::optional<io::Checkpoint> checkpoint = io::newest_checkpoint(folder);
+  return checkpoint && checkpoint->inputs_hash == prepared.inputs_hash &&
+         checkpoint->version == core::version() && checkpoint->commit == core::commit();
 }
 
 class Batch {
@@ -263,7 +241,15 @@ void Batch::start_next() {
   const std::size_t j = waiting_.front();
   waiting_.pop_front();
   std::error_code ignored;
+  // What failed by the physics and is asked for again begins anew.
+  const bool go_on = !(result_of(j).status == JobStatus::failed && fails_again(result_of(j).exit_code)) &&
+                     can_go_on(jobs_[j], folder_of(j));
   fs::remove(folder_of(j) / "run.json", ignored);  // what is found there afterwards is new
+  if (go_on) {
+    children_.start(j, {"resume", folder_of(j).string(), "--threads", "1", "--quiet", "--no-report"});
+    ++result_.started;
+    return;
+  }
   std::vector<std::string> arguments{"run",         options_.case_path.string(),
                                      "-o",          folder_of(j).string(),
                                      "--threads",   "1",
@@ -285,6 +271,10 @@ void Batch::record_failure(std::size_t j, int exit_code, const std::string& mess
   record.exit_code = exit_code;
   record.error = message;
   record.inputs_hash = jobs_[j].inputs_hash;
+  if (!fails_again(exit_code) && can_go_on(jobs_[j], folder_of(j))) {  // what it has is worth keeping
+    io::write_file_atomically(folder_of(j) / "run.json", io::to_json(record, jobs_[j].setup));
+    return;
+  }
   OutputFolder folder(folder_of(j), true);
   io::write_file_atomically(folder_of(j) / "case.resolved.toml", io::resolved_case(jobs_[j].setup));
   io::write_file_atomically(folder_of(j) / "run.json", io::to_json(record, jobs_[j].setup));
@@ -318,6 +308,8 @@ void Batch::take_in(const ChildProcesses::Ended& ended) {
   }
   result_of(j) = std::move(found.result);
   const JobResult& result = result_of(j);
+  std::error_code ignored;  // many complete runs do not need the room of many checkpoints
+  if (result.status == JobStatus::completed) fs::remove_all(folder_of(j) / "restart", ignored);
   if (result.status == JobStatus::failed)
     log_->warning(fmt::format("run '{}' failed: {}", name, result.message));
   else
@@ -398,11 +390,10 @@ BatchResult Batch::run() {
   const StopSignals signals;
   std::error_code ignored;
   fs::create_directories(options_.output, ignored);
-  const FolderLock lock(options_.output,
-                        options_.only ? FolderLock::Kind::shared : FolderLock::Kind::exclusive);
+  const PathLock lock(options_.output, options_.only ? PathLock::Kind::shared : PathLock::Kind::exclusive);
   prepare_folder();
-  std::optional<FolderLock> own_lock;
-  if (options_.only) own_lock.emplace(folder_of(*options_.only), FolderLock::Kind::exclusive);
+  std::optional<PathLock> own_lock;
+  if (options_.only) own_lock.emplace(folder_of(*options_.only), PathLock::Kind::exclusive);
   drop_settled();
   // Processes that share the folder do not share its log; where nothing is done it stays as it is.
   log_.emplace(options_.only || to_run_ == 0 ? fs::path("/dev/null") : options_.output / "batch.log",

@@ -44,7 +44,7 @@ enum class JobStatus {
   missing,      ///< not run yet
   completed,    ///< run.json says so
   failed,       ///< run.json says so; `message` tells why
-  interrupted,  ///< broken off; repeated from the start next time
+  interrupted,  ///< broken off; goes on from its checkpoint next time
 };
 [[nodiscard]] std::string_view name_of(JobStatus status) noexcept;
 

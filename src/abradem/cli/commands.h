@@ -21,6 +21,15 @@ struct RunArguments {
 };
 int run_command(const RunArguments& arguments);
 
+struct ResumeArguments {
+  std::string folder;                  ///< of a run
+  std::vector<std::string> overrides;  ///< of run.end and output.checkpoint_every
+  int threads = 0;                     ///< 0: as many as the machine has
+  bool quiet = false, json = false, no_report = false;
+};
+/// Goes on with a run from its newest checkpoint, to the same bits as if it had never stopped.
+int resume_command(const ResumeArguments& arguments);
+
 struct SweepArguments {
   std::string case_path;
   std::string output;  ///< folder; empty: out/<name of the case>-sweep

@@ -21,6 +21,7 @@ using namespace abradem;
 /// What the command line said.
 struct Arguments {
   cli::RunArguments run;
+  cli::ResumeArguments resume;
   cli::SweepArguments sweep;
   cli::CalibrateArguments calibrate;
   cli::AnalyseArguments analyse;
@@ -151,6 +152,23 @@ void declare_analyse(CLI::App& app, cli::AnalyseArguments& a) {
   analyse->add_flag("--json", a.json, "Print the result as JSON");
 }
 
+void declare_resume(CLI::App& app, cli::ResumeArguments& a) {
+  CLI::App* resume =
+      app.add_subcommand("resume", "Go on with a run that ended early, or let one that ended go on further");
+  resume->add_option("DIR", a.folder, "Output folder of the run")->required();
+  resume
+      ->add_option("--set", a.overrides,
+                   "A later end, as in --set run.end=\"24 rev\", or output.checkpoint_every")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  resume->add_option("--threads", a.threads, "Number of threads (default: as many as the machine has)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  resume->add_flag("--quiet", a.quiet, "No progress, only warnings and errors");
+  resume->add_flag("--no-report", a.no_report, "Leave out report.html");
+  resume->add_flag("--json", a.json, "Print run.json to stdout at the end");
+}
+
 void declare(CLI::App& app, Arguments& a) {
   app.set_version_flag(
       "--version", [] { return cli::version_text(); }, "Print version, commit, compiler and flags");
@@ -173,6 +191,7 @@ void declare(CLI::App& app, Arguments& a) {
       run->add_flag("--dry-run", a.run.dry_run, "Print the resolved case to stdout and write nothing");
   run->add_flag("--json", a.run.json, "Print run.json to stdout at the end")->excludes(dry);
 
+  declare_resume(app, a.resume);
   declare_sweep(app, a.sweep);
   declare_calibrate(app, a.calibrate);
   declare_analyse(app, a.analyse);
@@ -201,6 +220,7 @@ void declare(CLI::App& app, Arguments& a) {
 
 int dispatch(const CLI::App& app, const Arguments& a) {
   if (app.got_subcommand("run")) return cli::run_command(a.run);
+  if (app.got_subcommand("resume")) return cli::resume_command(a.resume);
   if (app.got_subcommand("sweep")) return cli::sweep_command(a.sweep);
   if (app.got_subcommand("calibrate")) return cli::calibrate_command(a.calibrate);
   if (app.got_subcommand("analyse")) return cli::analyse_command(a.analyse);

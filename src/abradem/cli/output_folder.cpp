@@ -11,6 +11,7 @@
 #include <ranges>
 #include <utility>
 
+#include "abradem/cli/path_lock.h"
 #include "abradem/core/error.h"
 #include "abradem/io/atomic_file.h"
 
@@ -87,6 +88,7 @@ void OutputFolder::take_over(bool force) {
         fmt::format("output folder '{}' already holds a run; add --force to replace it, or choose another "
                     "with -o",
                     folder_.string()));
+  const PathLock lock(folder_ / "run.log", PathLock::Kind::exclusive);  // nobody is running in it
   prove_writable(folder_);
   // The file that tells the folder of a run goes last, so that a second try may follow a failed one.
   for (const char* name : std::views::reverse(kWritten)) {

@@ -41,8 +41,10 @@ std::string clock_time(double seconds) {
                    : fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
-RunLog::RunLog(const std::filesystem::path& path, bool quiet)
-    : file_(std::fopen(path.c_str(), "w")), quiet_(quiet), terminal_(!quiet && isatty(STDERR_FILENO) != 0) {
+RunLog::RunLog(const std::filesystem::path& path, bool quiet, bool append)
+    : file_(std::fopen(path.c_str(), append ? "ae" : "we")),
+      quiet_(quiet),
+      terminal_(!quiet && isatty(STDERR_FILENO) != 0) {
   if (file_ == nullptr)
     throw IoError(fmt::format("cannot write '{}': {}", path.string(), std::strerror(errno)));
 }

@@ -21,7 +21,7 @@ namespace abradem::cli {
 class RunLog {
  public:
   /// @throws IoError when the file cannot be written
-  RunLog(const std::filesystem::path& path, bool quiet);
+  RunLog(const std::filesystem::path& path, bool quiet, bool append = false);
   ~RunLog();
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;

@@ -8,8 +8,10 @@
 #include <chrono>
 
 #include "abradem/analysis/wall_contours.h"
+#include "abradem/cli/checkpointing.h"
 #include "abradem/cli/mesh_loader.h"
 #include "abradem/cli/output_folder.h"
+#include "abradem/cli/path_lock.h"
 #include "abradem/cli/print.h"
 #include "abradem/cli/progress.h"
 #include "abradem/cli/stop_signals.h"
@@ -26,6 +28,7 @@ namespace abradem::cli {
 
 namespace {
 
+namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using simulation::Simulation;
 
@@ -71,30 +74,38 @@ class Stopwatch {
   Clock::time_point start_;
 };
 
-/// Steps to the end, with an output whenever one is due. @return false when a signal ended it early
-bool run_to_end(Simulation& run, io::RunRecorder& recorder, Progress& progress, double& stepping_seconds) {
-  while (!run.finished()) {
-    bool due = false;
-    {
+/// Steps to the end, with an output whenever one is due. A checkpoint is of the moment before an output: what
+/// goes on from it makes the output again. @return false when a signal ended it early
+bool run_to_end(Simulation& run, io::RunRecorder& recorder, Checkpoints& checkpoints, Progress& progress,
+                double& stepping_seconds) {
+  while (!run.finished() || recorder.output_due()) {
+    if (!recorder.output_due()) {
       const Stopwatch stopwatch(stepping_seconds);
-      due = run.advance([&] {
+      run.advance([&] {
         progress.update(run);
+        checkpoints.look();
         return !StopSignals::requested();
       });
     }
-    if (due || StopSignals::requested()) {
-      recorder.output(run.finished() || StopSignals::requested());
+    const bool stop = StopSignals::requested();
+    if (run.finished() || stop)
+      checkpoints.save(false);
+    else
+      checkpoints.look();
+    if (recorder.output_due() || stop) {
+      recorder.output(run.finished() || stop);
       progress.output(run, recorder);
     }
-    if (StopSignals::requested() && !run.finished()) return false;
+    if (stop && !run.finished()) return false;
   }
   return true;
 }
 
-void run_steps(Simulation& run, io::RunRecorder& recorder, RunLog& log, io::RunRecord& record) {
+void run_steps(Simulation& run, io::RunRecorder& recorder, Checkpoints& checkpoints, RunLog& log,
+               io::RunRecord& record) {
   Progress progress(log);
   try {
-    if (!run_to_end(run, recorder, progress, record.stepping_seconds)) {
+    if (!run_to_end(run, recorder, checkpoints, progress, record.stepping_seconds)) {
       record.status = "interrupted";
       record.exit_code = static_cast<int>(ExitCode::interrupted);
     }
@@ -103,6 +114,7 @@ void run_steps(Simulation& run, io::RunRecorder& recorder, RunLog& log, io::RunR
     record.status = "failed";
     record.exit_code = static_cast<int>(ExitCode::unphysical);
     record.error = e.what();
+    checkpoints.save_last_good();
   }
   progress.finish();
 }
@@ -147,7 +159,7 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
 }
 
 /// The disk is full or gone, in the middle of a run: says so in the manifest, if that can still be written.
-void try_to_record_failure(io::RunRecord& record, const RunOptions& options, const Simulation& run,
+void try_to_record_failure(io::RunRecord& record, const fs::path& folder, const Simulation& run,
                            const IoError& error) noexcept {
   try {
     record.status = "failed";
@@ -155,7 +167,7 @@ void try_to_record_failure(io::RunRecord& record, const RunOptions& options, con
     record.error = error.what();
     record.steps = run.steps();
     record.state_hash = run.state_hash();
-    io::write_file_atomically(options.output / "run.json", io::to_json(record, options.setup));
+    io::write_file_atomically(folder / "run.json", io::to_json(record, run.setup()));
   } catch (...) {
     // The first error is the one to be told.
   }
@@ -184,11 +196,49 @@ study::AccelerationChoice choose_acceleration(const simulation::Setup& setup, Ru
 
 }  // namespace
 
+int carry_out(Simulation& run, io::RunRecorder& recorder, RunLog& log, const CarryOut& how) {
+  io::RunRecord record = how.record;
+  record.threads = omp_get_max_threads();
+  std::string json;
+  try {
+    Checkpoints checkpoints(how.folder, run, recorder, record, log, inputs_of(run, how.resolved_text));
+    run_steps(run, recorder, checkpoints, log, record);
+    recorder.close();
+    complete_record(record, run, recorder, log);
+    record.wall_seconds = checkpoints.seconds();
+    json = io::to_json(record, run.setup());
+    io::write_file_atomically(how.folder / "run.json", json);
+    if (how.report) report::write_report(how.folder);
+  } catch (const IoError& error) {
+    try_to_record_failure(record, how.folder, run, error);
+    throw;
+  }
+
+  summarise(record, log);
+  if (record.status != "completed" && !record.checkpoint.empty())
+    log.line(fmt::format("{}: step {} in {}; `abradem resume {}` goes on from it",
+                         record.status == "failed" ? "last good state" : "checkpoint",
+                         record.checkpoint_steps, record.checkpoint, how.folder.string()));
+  if (how.report) log.line(fmt::format("report: {}", (how.folder / "report.html").string()));
+  if (how.json) print_result(json);
+  return record.exit_code;
+}
+
+void announce_run(const Simulation& run, RunLog& log) {
+  announce(run, log);
+  report_limits(run.limits(), log, nullptr);
+}
+
 int run_case(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   if (options.threads > 0) omp_set_num_threads(options.threads);
   // Everything that can be refused is refused before the folder exists.
-  const std::uint64_t inputs_hash = io::inputs_hash(options.setup);
+  CarryOut how{.folder = options.output,
+               .resolved_text = options.resolved_text,
+               .record = {},
+               .report = options.report,
+               .json = options.json};
+  how.record.inputs_hash = io::inputs_hash(options.setup);
   simulation::Setup setup = options.setup;
   const bool choose = study::wants_acceleration(setup);
   if (choose) setup = study::accelerated(setup, 1.0);
@@ -199,40 +249,20 @@ int run_case(const RunOptions& options) {
   OutputFolder folder(options.output, options.force);
   io::write_file_atomically(options.output / "case.toml", options.case_text);
   RunLog log(options.output / "run.log", options.quiet);
+  const PathLock lock(options.output / "run.log", PathLock::Kind::exclusive);
   log.line(fmt::format("{} -> {}", options.case_path.string(), options.output.string()));
-  io::RunRecord record;
   if (choose) {
-    record.acceleration = choose_acceleration(options.setup, log);
-    setup = study::accelerated(setup, record.acceleration->factor);
+    how.record.acceleration = choose_acceleration(options.setup, log);
+    setup = study::accelerated(setup, how.record.acceleration->factor);
     run = Simulation(setup, MeshLoader(setup));
+    how.resolved_text = io::resolved_case(setup);
   }
-  io::write_file_atomically(options.output / "case.resolved.toml",
-                            choose ? io::resolved_case(setup) : options.resolved_text);
-  announce(run, log);
-
-  record.threads = omp_get_max_threads();
-  record.inputs_hash = inputs_hash;
-  report_limits(run.limits(), log, nullptr);
+  io::write_file_atomically(options.output / "case.resolved.toml", how.resolved_text);
+  announce_run(run, log);
   io::RunRecorder recorder(run, options.output);
   folder.keep();
-  std::string json;
-  try {
-    run_steps(run, recorder, log, record);
-    recorder.close();
-    complete_record(record, run, recorder, log);
-    record.wall_seconds = seconds_since(start);
-    json = io::to_json(record, setup);
-    io::write_file_atomically(options.output / "run.json", json);
-    if (options.report) report::write_report(options.output);
-  } catch (const IoError& error) {
-    try_to_record_failure(record, options, run, error);
-    throw;
-  }
-
-  summarise(record, log);
-  if (options.report) log.line(fmt::format("report: {}", (options.output / "report.html").string()));
-  if (options.json) print_result(json);
-  return record.exit_code;
+  how.record.wall_seconds = seconds_since(start);
+  return carry_out(run, recorder, log, how);
 }
 
 }  // namespace abradem::cli

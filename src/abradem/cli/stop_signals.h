@@ -16,10 +16,12 @@ class StopSignals {
 
   /// Has someone asked to stop since the signals were taken over?
   [[nodiscard]] static bool requested() noexcept;
+  /// Has someone asked for a checkpoint (SIGUSR1) since this was asked last?
+  [[nodiscard]] static bool take_checkpoint_request() noexcept;
 
  private:
   struct sigaction interrupt_ {
-  }, terminate_{}, hang_up_{}, pipe_{};
+  }, terminate_{}, hang_up_{}, pipe_{}, user_{};
 };
 
 }  // namespace abradem::cli

@@ -21,6 +21,11 @@ struct TriangleMesh {
 
   [[nodiscard]] Index vertex_count() const noexcept { return static_cast<Index>(vertices.size()); }
   [[nodiscard]] Index triangle_count() const noexcept { return static_cast<Index>(triangles.size()); }
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("vertices", self.vertices)("triangles", self.triangles);
+  }
 };
 
 /// Area vector of one triangle [m^2]: half the cross product of its edges; along the outward normal.

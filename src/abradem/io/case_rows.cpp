@@ -477,6 +477,16 @@ const std::array kRows{
         .limits = {.low = 1, .high = 100000},
         .example = "360",
         .doc = "Number of sections through the worn surface per output."},
+    Row{.section = "output",
+        .key = "checkpoint_every",
+        .need = Need::has_default,
+        .slot = ABRADEM_SLOT(setup->output.checkpoint_every),
+        .unit = "s",
+        .limits = kNotNegative,
+        .example = "\"10 min\"",
+        .doc =
+            "Time on the clock between two checkpoints, from which `abradem resume` goes on; 0: none on the "
+            "way, only where a run ends."},
 
     Row{.section = "measurement",
         .key = "revolutions",

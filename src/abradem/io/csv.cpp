@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "abradem/core/error.h"
+#include "abradem/io/atomic_file.h"
 
 namespace abradem::io {
 
@@ -73,7 +74,38 @@ CsvWriter::CsvWriter(std::filesystem::path path, std::vector<std::string> column
   if (std::fwrite(line_.data(), 1, line_.size(), file_) != line_.size()) fail("write", errno);
 }
 
-CsvWriter::~CsvWriter() { discard(); }
+CsvWriter::CsvWriter(std::filesystem::path path, std::vector<std::string> columns, Growing growing)
+    : path_(std::move(path)), columns_(std::move(columns)) {
+  if (const std::string problem = header_problem(columns_); !problem.empty())
+    throw InputError(fmt::format("table '{}': {}", path_.string(), problem));
+  line_ = fmt::format("{}\n", fmt::join(columns_, ","));
+  if (growing.from == 0) write_file_atomically(path_, line_);  // never without its header
+  file_ = std::fopen(path_.c_str(), "rb+");
+  if (file_ == nullptr) fail("go on with", errno);
+  if (growing.from == 0) growing.from = line_.size();
+  std::string header(line_.size(), '\0');
+  const bool same = std::fread(header.data(), 1, header.size(), file_) == header.size() && header == line_;
+  const bool long_enough =
+      std::fseek(file_, static_cast<long>(growing.from) - 1, SEEK_SET) == 0 && std::fgetc(file_) == '\n';
+  if (!same || !long_enough) {
+    discard();
+    throw IoError(fmt::format("table '{}' is not what it was when the checkpoint was written{}",
+                              path_.string(), same ? ": rows are missing" : ""));
+  }
+  if (ftruncate(fileno(file_), static_cast<off_t>(growing.from)) != 0) fail("go on with", errno);
+  written_ = growing.from;
+}
+
+CsvWriter::~CsvWriter() {
+  if (temporary_.empty() && file_ != nullptr) {
+    try {
+      flush();
+    } catch (const IoError&) {
+      // Whoever needs the rows calls close(), and hears of it.
+    }
+  }
+  discard();
+}
 
 void CsvWriter::row(std::span<const double> values) {
   if (file_ == nullptr) throw InputError(fmt::format("table '{}': a row after close()", path_.string()));
@@ -89,13 +121,45 @@ void CsvWriter::row(std::span<const double> values) {
     line_ += ',';
   }
   line_.back() = '\n';
+  if (temporary_.empty()) {
+    constexpr std::size_t kMost = 1 << 16;
+    waiting_ += line_;
+    if (waiting_.size() > kMost) flush();
+    return;
+  }
   if (std::fwrite(line_.data(), 1, line_.size(), file_) != line_.size()) fail("write", errno);
+}
+
+/// By write() alone: rows reach the file whole, however the program ends.
+void CsvWriter::flush() {
+  const int file = fileno(file_);
+  for (std::size_t at = 0; at < waiting_.size();) {
+    const ssize_t n =
+        pwrite(file, waiting_.data() + at, waiting_.size() - at, static_cast<off_t>(written_ + at));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      const int error = errno;
+      waiting_.clear();
+      [[maybe_unused]] const int cut = ftruncate(file, static_cast<off_t>(written_));  // no part of a row
+      fail("write", error);
+    }
+    at += static_cast<std::size_t>(n);
+  }
+  written_ += waiting_.size();
+  waiting_.clear();
+}
+
+void CsvWriter::sync() {
+  flush();
+  if (fsync(fileno(file_)) != 0 && errno != EINVAL && errno != EROFS) fail("write", errno);
 }
 
 void CsvWriter::close() {
   if (file_ == nullptr) throw InputError(fmt::format("table '{}': closed twice", path_.string()));
+  if (temporary_.empty()) flush();
   const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;  // a full disk may show only here
   if (!closed) fail("write", errno);
+  if (temporary_.empty()) return;
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error) fail("write", error.value());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <initializer_list>
@@ -16,8 +17,18 @@ namespace abradem::io {
 
 /// Writes a table row by row. The rows go to a temporary file beside the target, which takes its name at
 /// close(): a reader finds the old table or the whole new one. Without close() nothing stays behind.
+///
+/// A table that grows with a run stands under its own name from the start: whole rows are added to it, so
+/// that a reader finds whole rows at any time, also after the program was killed.
 class CsvWriter {
  public:
+  /// A table that grows; `from`: bytes of it to keep, as position() gave them, or 0 to begin it anew.
+  struct Growing {
+    std::uint64_t from = 0;
+  };
+  /// @throws as the other; IoError also when the file is shorter than what is to be kept of it
+  CsvWriter(std::filesystem::path path, std::vector<std::string> columns, Growing growing);
+
   /// @param columns names: not empty, unique, of letters, digits and _
   /// @throws InputError for other names, IoError when the file cannot be created
   CsvWriter(std::filesystem::path path, std::vector<std::string> columns);
@@ -30,6 +41,12 @@ class CsvWriter {
   void row(std::initializer_list<double> values) {
     row(std::span<const double>(values.begin(), values.size()));
   }
+  /// Bytes of the table so far, rows not yet in the file included.
+  [[nodiscard]] std::uint64_t position() const noexcept { return written_ + waiting_.size(); }
+  /// A growing table: brings all rows into the file.   @throws IoError when the disk is full
+  void flush();
+  /// … and the file onto the disk.
+  void sync();
   /// Completes the table. Call once, after which no row can follow.   @throws IoError
   void close();
 
@@ -37,10 +54,11 @@ class CsvWriter {
   [[noreturn]] void fail(const char* doing, int error);
   void discard() noexcept;
 
-  std::filesystem::path path_, temporary_;
+  std::filesystem::path path_, temporary_;  // temporary_ is empty for a growing table
   std::vector<std::string> columns_;
   std::FILE* file_ = nullptr;
-  std::string line_;
+  std::string line_, waiting_;  // waiting_: whole rows
+  std::uint64_t written_ = 0;
 };
 
 /// A whole table in memory.

@@ -68,8 +68,8 @@ std::vector<double> normality_values(const analysis::SectionStatistics& s) {
           s.equal_width.share_passing};
 }
 
-NormalityTable::NormalityTable(const std::filesystem::path& folder, analysis::Ends ends)
-    : ends_(ends), table_(folder / "normality.csv", normality_columns()) {}
+NormalityTable::NormalityTable(const std::filesystem::path& folder, analysis::Ends ends, std::uint64_t from)
+    : ends_(ends), table_(folder / "normality.csv", normality_columns(), CsvWriter::Growing{from}) {}
 
 void NormalityTable::add(double revolution, std::span<const analysis::Contour> contours) {
   std::vector<double> row{revolution};

@@ -123,7 +123,7 @@ std::string counted(const simulation::Setup& setup) {
 std::string to_json(const RunRecord& record, const simulation::Setup& setup) {
   Json json;
   json["status"] = record.status;
-  json["exit_code"] = record.exit_code;
+  json["exit_code"] = record.status == "running" ? Json(nullptr) : Json(record.exit_code);
   if (!record.error.empty()) json["error"] = record.error;
   json["case_title"] = setup.title;
   json["counted"] = counted(setup);
@@ -146,6 +146,10 @@ std::string to_json(const RunRecord& record, const simulation::Setup& setup) {
         {{"name", limit.name}, {"value", number(limit.value)}, {"limit", limit.limit}, {"ok", limit.ok()}});
   json["limits"] = limits;
   json["warnings"] = record.warnings;
+  json["checkpoint"] = record.checkpoint.empty()
+                           ? Json(nullptr)
+                           : Json{{"file", record.checkpoint}, {"steps", record.checkpoint_steps}};
+  if (record.resumed > 0) json["resumed"] = record.resumed;
   if (const double factor = acceleration_of(setup); factor != 1.0 || record.acceleration) {
     json["acceleration"] = acceleration_json(record, factor);
     json["setup"] = {{"Acceleration", acceleration_text(record, factor)}};

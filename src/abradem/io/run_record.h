@@ -15,7 +15,7 @@ namespace abradem::io {
 
 /// The record of a run, as it stands in run.json. Keys: docs/reference/output.md.
 struct RunRecord {
-  std::string status = "completed";  ///< completed, interrupted or failed
+  std::string status = "completed";  ///< running, completed, interrupted or failed
   int exit_code = 0;
   std::string error;  ///< message of a failed run
   int threads = 1;
@@ -29,6 +29,9 @@ struct RunRecord {
   std::vector<simulation::StabilityLimit> limits;
   std::vector<std::string> warnings;
   std::optional<study::AccelerationChoice> acceleration;  ///< where the case left it to be chosen
+  int resumed = 0;                                        ///< how often the run was taken up again
+  std::string checkpoint;  ///< file of the last one, relative to the folder; empty: none
+  std::uint64_t checkpoint_steps = 0;
 };
 
 /// What the tables' column `revolution` counts: "revolution" or "cycle" of the first wall that turns or

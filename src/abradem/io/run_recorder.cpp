@@ -43,29 +43,55 @@ std::vector<double> depths_um(const wear::WearingSurface& surface) {
 }  // namespace
 
 RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder)
+    : RunRecorder(run, std::move(folder), State{}) {
+  write_frame();
+}
+
+RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder, State state)
     : run_(run),
       folder_(std::move(folder)),
-      tables_(made(folder_ / "tables")),
+      state_(std::move(state)),
+      tables_(made(folder_ / "tables"), state_.tables),
       force_(folder_ / "tables" / "force.csv",
              {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts",
-              "normal_along_N", "normal_across_N", "normal_sum_N"}) {
+              "normal_along_N", "normal_across_N", "normal_sum_N"},
+             CsvWriter::Growing{state_.force_table}) {
   if (run.setup().output.frames != simulation::Frames::none) made(folder_ / "vtk");
   worn_wall_ = analysis::worn_wall(run.walls());
   const bool around =
       worn_wall_ && run.walls()[*worn_wall_].setup().motion.kind == simulation::MotionKind::rotation;
-  normality_.emplace(folder_ / "tables", around ? analysis::Ends::joined : analysis::Ends::open);
+  normality_.emplace(folder_ / "tables", around ? analysis::Ends::joined : analysis::Ends::open,
+                     state_.normality_table);
   for (std::size_t p = run.particles().size(); p-- > 0;)
     if (norm2(run.particles().load[p]) > 0.0) watched_particle_ = p;
   force_stride_ = static_cast<std::uint64_t>(
       std::max(1.0, std::floor(static_cast<double>(run.steps_per_output()) / kForceRows)));
   run.on_step([this](const Simulation& now) { observe(now); });
-  write_frame();
+}
+
+bool RunRecorder::output_due() const noexcept {
+  return run_.steps() > state_.outputs_until &&
+         (run_.finished() || run_.steps() % run_.steps_per_output() == 0);
+}
+
+RunRecorder::State RunRecorder::state() const {
+  State now = state_;
+  now.tables = tables_.positions();
+  now.force_table = force_.position();
+  now.normality_table = normality_->position();
+  return now;
+}
+
+void RunRecorder::sync() {
+  tables_.sync();
+  normality_->sync();
+  force_.sync();
 }
 
 void RunRecorder::observe(const Simulation& run) {
   if (run.particles().size() == 0) return;
   const simulation::ForceSample f = run.force_on(watched_particle_);
-  normal_force_.add(f.normal);
+  state_.normal_force.add(f.normal);
   if (run.steps() % force_stride_ != 0) return;
   const simulation::NormalParts parts = run.normal_parts_on(watched_particle_);
   force_.row({run.test_time(), revolution_of(run), f.normal, f.tangential, 1e6 * f.overlap,
@@ -83,14 +109,19 @@ std::vector<analysis::Contour> RunRecorder::cut_contours() const {
 }
 
 void RunRecorder::output(bool last) {
-  ledger_ = run_.ledger();
+  state_.ledger = run_.ledger();
   const std::vector<analysis::Contour> contours =
       worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
-  last_ = analysis::revolution_row(revolution_of(run_), run_.test_time(),
-                                   {ledger_.law, ledger_.swept, ledger_.paper}, contours, normal_force_);
-  normal_force_ = {};
-  tables_.add(*last_, contours);
-  normality_->add(last_->revolution, contours);
+  state_.last = analysis::revolution_row(revolution_of(run_), run_.test_time(),
+                                         {state_.ledger.law, state_.ledger.swept, state_.ledger.paper},
+                                         contours, state_.normal_force);
+  state_.normal_force = {};
+  state_.outputs_until = run_.steps();
+  tables_.add(*state_.last, contours);
+  normality_->add(state_.last->revolution, contours);
+  tables_.flush();
+  normality_->flush();
+  force_.flush();
   if (last || run_.setup().output.frames == simulation::Frames::all) write_frame();
 }
 
@@ -102,8 +133,8 @@ void RunRecorder::write_frame() {
     const simulation::Wall& wall = run_.walls()[w];
     if (wall.is_plane()) continue;
     // A wall that keeps its shape is written once.
-    const bool still = wall.setup().deformation == simulation::DeformationRule::none && frame_ > 0;
-    const std::string file = fmt::format("vtk/{}_{:04}.vtp", wall.setup().name, still ? 0 : frame_);
+    const bool still = wall.setup().deformation == simulation::DeformationRule::none && state_.frame > 0;
+    const std::string file = fmt::format("vtk/{}_{:04}.vtp", wall.setup().name, still ? 0 : state_.frame);
     if (!still) {
       const std::vector<double> depth = depths_um(wall.surface());
       std::vector<double> volume(wall.surface().element_volume().begin(),
@@ -114,15 +145,15 @@ void RunRecorder::write_frame() {
       if (!triangles_[w]) triangles_[w].emplace(wall.surface().mesh().triangles);
       write_vtp(folder_ / file, wall.surface().mesh().vertices, *triangles_[w], points, cells);
     }
-    frames_.push_back({time, file, static_cast<int>(w)});
+    state_.frames.push_back({time, file, static_cast<int>(w)});
   }
   if (run_.particles().size() > 0) {
-    const std::string file = fmt::format("vtk/particles_{:04}.vtp", frame_);
+    const std::string file = fmt::format("vtk/particles_{:04}.vtp", state_.frame);
     write_vtp_spheres(folder_ / file, run_.particles().position, run_.particles().radius);
-    frames_.push_back({time, file, static_cast<int>(run_.walls().size())});
+    state_.frames.push_back({time, file, static_cast<int>(run_.walls().size())});
   }
-  write_pvd(folder_ / "series.pvd", frames_);
-  ++frame_;
+  write_pvd(folder_ / "series.pvd", state_.frames);
+  ++state_.frame;
 }
 
 /// tables/wear.csv: the elements of the worn wall that lost material, in its reference numbering.

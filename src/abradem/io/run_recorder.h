@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -23,17 +24,46 @@ namespace abradem::io {
 /// first, the one whose forces are recorded.
 class RunRecorder {
  public:
+  /// How far the record has come: what a run that goes on needs to add to it without losing or doubling a
+  /// row.
+  struct State {
+    WearTablePositions tables;
+    std::uint64_t force_table = 0, normality_table = 0;  ///< bytes
+    analysis::RunningStatistics normal_force;
+    std::vector<PvdEntry> frames;
+    int frame = 0;
+    std::uint64_t outputs_until = 0;  ///< step of the last output
+    simulation::Ledger ledger;
+    std::optional<analysis::RevolutionRow> last;
+
+    template <typename Self, typename Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive("tables", self.tables)("force_table", self.force_table);
+      archive("normality_table", self.normality_table)("normal_force", self.normal_force);
+      archive("frames", self.frames)("frame", self.frame)("outputs_until", self.outputs_until);
+      archive("ledger", self.ledger)("last", self.last);
+    }
+  };
+
   /// Attaches itself to the simulation's steps; must outlive them. @throws IoError
   RunRecorder(simulation::Simulation& run, std::filesystem::path folder);
+  /// Goes on with the record of a run that has been put back: rows and frames after `state` are dropped.
+  /// @throws IoError when the folder holds less than that
+  RunRecorder(simulation::Simulation& run, std::filesystem::path folder, State state);
 
   /// One output: a row of every table and, where they are asked for, a frame. @throws IoError
   /// @param last no other follows
   void output(bool last);
+  /// Is an output due at this step that has not been made?
+  [[nodiscard]] bool output_due() const noexcept;
+  [[nodiscard]] State state() const;
+  /// Brings all rows onto the disk. @throws IoError
+  void sync();
   /// Completes the tables; also what a failed or interrupted run has. @throws IoError
   void close();
 
-  [[nodiscard]] const std::optional<analysis::RevolutionRow>& last() const noexcept { return last_; }
-  [[nodiscard]] const simulation::Ledger& ledger() const noexcept { return ledger_; }
+  [[nodiscard]] const std::optional<analysis::RevolutionRow>& last() const noexcept { return state_.last; }
+  [[nodiscard]] const simulation::Ledger& ledger() const noexcept { return state_.ledger; }
 
  private:
   void observe(const simulation::Simulation& run);
@@ -46,15 +76,11 @@ class RunRecorder {
   std::optional<std::size_t> worn_wall_;
   std::size_t watched_particle_ = 0;
   std::uint64_t force_stride_ = 1;
+  State state_;  // its table positions: where the record was taken up
   WearTables tables_;
   std::optional<NormalityTable> normality_;
   CsvWriter force_;
-  analysis::RunningStatistics normal_force_;
-  std::vector<PvdEntry> frames_;
   std::vector<std::optional<VtpTriangles>> triangles_;  // of each wall, once it has a frame
-  int frame_ = 0;
-  simulation::Ledger ledger_;
-  std::optional<analysis::RevolutionRow> last_;
 };
 
 }  // namespace abradem::io

@@ -52,6 +52,11 @@ struct PvdEntry {
   double time = 0.0;  ///< [s]
   std::string file;   ///< relative to the folder of the .pvd file
   int part = 0;
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("time", self.time)("file", self.file)("part", self.part);
+  }
 };
 
 /// Writes the index that ParaView opens to show a time series. @throws IoError

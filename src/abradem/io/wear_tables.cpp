@@ -30,11 +30,13 @@ std::array<double, 18> revolution_values(const analysis::RevolutionRow& r) {
           r.depth_p_chi2,        r.width_p_chi2};
 }
 
-WearTables::WearTables(const std::filesystem::path& folder)
-    : revolutions_(folder / "revolutions.csv", revolution_columns()),
+WearTables::WearTables(const std::filesystem::path& folder, const WearTablePositions& from)
+    : revolutions_(folder / "revolutions.csv", revolution_columns(), CsvWriter::Growing{from.revolutions}),
       contours_(folder / "contours.csv",
-                {"revolution", "angle_deg", "depth_mm", "width_mm", "area_mm2", "displaced_width_mm"}),
-      profiles_(folder / "profiles.csv", {"revolution", "angle_deg", "radius_mm", "height_mm"}) {}
+                {"revolution", "angle_deg", "depth_mm", "width_mm", "area_mm2", "displaced_width_mm"},
+                CsvWriter::Growing{from.contours}),
+      profiles_(folder / "profiles.csv", {"revolution", "angle_deg", "radius_mm", "height_mm"},
+                CsvWriter::Growing{from.profiles}) {}
 
 void WearTables::add(const analysis::RevolutionRow& r, std::span<const analysis::Contour> contours) {
   revolutions_.row(revolution_values(r));
@@ -45,6 +47,18 @@ void WearTables::add(const analysis::RevolutionRow& r, std::span<const analysis:
     for (const analysis::ProfilePoint& p : c.profile)
       profiles_.row({r.revolution, angle, kMm * p.radius, kMm * p.height});
   }
+}
+
+WearTablePositions WearTables::positions() const noexcept {
+  return {revolutions_.position(), contours_.position(), profiles_.position()};
+}
+
+void WearTables::flush() {
+  for (CsvWriter* table : {&contours_, &profiles_, &revolutions_}) table->flush();
+}
+
+void WearTables::sync() {
+  for (CsvWriter* table : {&contours_, &profiles_, &revolutions_}) table->sync();
 }
 
 void WearTables::close() {

@@ -135,10 +135,12 @@ Manifest read_manifest(const std::filesystem::path& file) {
   const Place place{json, file.string(), ""};
   Manifest out;
   out.status = place.text("status");
-  if (out.status != "completed" && out.status != "interrupted" && out.status != "failed") {
-    place.fail("status", fmt::format("is '{}', expected completed, interrupted or failed", out.status));
+  if (out.status != "running" && out.status != "completed" && out.status != "interrupted" &&
+      out.status != "failed") {
+    place.fail("status",
+               fmt::format("is '{}', expected running, completed, interrupted or failed", out.status));
   }
-  out.exit_code = place.integer<int>("exit_code");
+  if (out.status != "running") out.exit_code = place.integer<int>("exit_code");
   out.version = place.text("version");
   out.commit = place.text("commit");
   out.compiler = place.text("compiler");

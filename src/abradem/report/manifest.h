@@ -39,7 +39,7 @@ struct Measurement {
 
 /// A run's manifest, run.json. The record, the ledger and the results are always there; the rest is optional.
 struct Manifest {
-  std::string status;  ///< completed, interrupted or failed
+  std::string status;  ///< running, completed, interrupted or failed
   int exit_code = 0;
   std::string version, commit, compiler, state_hash;
   std::int64_t threads = 0, steps = 0;

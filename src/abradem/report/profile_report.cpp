@@ -20,7 +20,6 @@ namespace abradem::report {
 namespace {
 
 using analysis::Baseline;
-using analysis::Contour;
 using Json = nlohmann::ordered_json;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

@@ -93,7 +93,7 @@ Card groove_card(const char* name, const char* unit, double value, double sd, co
 Card status_card(const RunFolder& run, const LastRow& row) {
   const Manifest& m = run.manifest;
   Card card{"Status", m.status, "", "", m.status == "completed" ? Mark::good : Mark::bad, ""};
-  card.mark_text = fmt::format("exit code {}", m.exit_code);
+  card.mark_text = m.status == "running" ? "not ended" : fmt::format("exit code {}", m.exit_code);
   card.value.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(card.value.front())));
   card.note = fmt::format("{}{} steps in {} s",
                           std::isfinite(row.revolution) ? revolutions_text(row.revolution) + ", " : "",
@@ -124,8 +124,10 @@ std::string verdict(const RunFolder& run) {
   const LedgerSummary& ledger = run.manifest.ledger;
   std::string out;
   if (run.manifest.status != "completed") {
-    out = fmt::format("The run was {}; what follows is the last good state. ",
-                      run.manifest.status == "failed" ? "stopped because it failed" : "interrupted");
+    out = fmt::format("The run {}; what follows is the last good state. ",
+                      run.manifest.status == "failed"    ? "was stopped because it failed"
+                      : run.manifest.status == "running" ? "is going on, or was killed"
+                                                         : "was interrupted");
   }
   if (std::isfinite(row.revolution)) {
     out += fmt::format("After {} the wall has lost {} mm³", revolutions_text(row.revolution),
@@ -232,7 +234,8 @@ std::string record_table(const RunFolder& run) {
       "Speed",
       readable_count(std::isfinite(m.steps_per_second) ? std::llround(m.steps_per_second) : 0) + " steps/s");
   out += pair_html("State hash", m.state_hash);
-  out += pair_html("Status", fmt::format("{} (exit code {})", m.status, m.exit_code));
+  out += pair_html(
+      "Status", m.status == "running" ? m.status : fmt::format("{} (exit code {})", m.status, m.exit_code));
   return out + "</tbody></table>\n";
 }
 

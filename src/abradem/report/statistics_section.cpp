@@ -381,8 +381,9 @@ Figure p_figure(const Statistics& a, const std::string& id) {
   figure.caption =
       "Solid: all sections; dashed: sections thinned to independent ones. The dotted line is p = 0.05; "
       "points below 10⁻⁶ are drawn there.";
-  for (const auto& [what, of] : {std::pair{"Depth", &a.depth}, std::pair{"Width", &a.width}}) {
-    Panel panel{.title = what,
+  for (const bool depth : {true, false}) {
+    const std::vector<SectionStatistics>* of = depth ? &a.depth : &a.width;
+    Panel panel{.title = depth ? "Depth" : "Width",
                 .x = {.title = a.s.counted + "s [-]"},
                 .y = {.title = "p [-]", .log = true, .range = std::array{5e-7, 1.5}}};
     const auto add = [&](const char* name, int colour, bool independent, auto p_of) {

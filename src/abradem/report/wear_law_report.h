@@ -14,7 +14,7 @@ namespace abradem::report {
 
 /// What the tests say of a material, a sentence or two each: whether Archard's law holds, the power law, what
 /// cannot be known, the errors of prediction, what the residuals show.
-[[nodiscard]] std::vector<std::string> wear_law_findings(const study::WearLawFit& fit);
+[[nodiscard]] std::vector<std::string> wear_law_findings(const study::WearLawFit& r);
 
 /// @param fits one per material, at least one
 [[nodiscard]] std::string wear_law_text(std::span<const study::WearLawFit> fits);

@@ -33,6 +33,11 @@ struct Ledger {
   double residual = 0.0;
   /// swept / law; 0 without wear or with a rigid surface.
   double kappa = 0.0;
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("law", self.law)("deposited", self.deposited)("swept", self.swept)("paper", self.paper)("residual", self.residual)("kappa", self.kappa);
+  }
 };
 
 /// The contact forces of one step, summed over the walls, for one particle.

@@ -35,7 +35,7 @@ void Simulation::load(core::ArchiveReader& archive) {
   for (std::size_t k = 0; k < sphere_walls_.size(); ++k)
     archive.require(sphere_walls_[k].restore(walls_[k % walls_.size()]),
                     "belongs to candidates that do not fit the wall");
-  total_steps_ = std::max(steps_, static_cast<std::uint64_t>(std::llround(end_ / dt_)));
+  total_steps_ = static_cast<std::uint64_t>(std::llround(end_ / dt_));
   move_walls();
 }
 

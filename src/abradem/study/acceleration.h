@@ -15,6 +15,11 @@ namespace abradem::study {
 struct AccelerationTrial {
   double revolutions = 0.0;          ///< 2 n, of the finer run
   std::optional<double> difference;  ///< of the mean profiles, relative L2 [-]; nothing where a run failed
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("revolutions", self.revolutions)("difference", self.difference);
+  }
 };
 
 struct AccelerationChoice {
@@ -23,6 +28,12 @@ struct AccelerationChoice {
   double tolerance = 0.0;    ///< asked for [-]
   double error = 0.0;        ///< accepted: the last difference; 0 where nothing is accelerated [-]
   std::vector<AccelerationTrial> trials;
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("factor", self.factor)("revolutions", self.revolutions)("tolerance", self.tolerance)(
+        "error", self.error)("trials", self.trials);
+  }
 };
 
 /// Does a wear pair leave its acceleration to be chosen?

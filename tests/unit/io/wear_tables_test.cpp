@@ -32,7 +32,9 @@ TEST(WearTables, HoldEveryColumnInItsUnit) {
                                   .profile = {{0.02, 0.0}, {0.021, -1e-5}}};
   WearTables tables(folder);
   tables.add(row, std::span(&contour, 1));
-  EXPECT_FALSE(fs::exists(folder / "revolutions.csv"));
+  EXPECT_EQ(read_csv(folder / "revolutions.csv").rows(), 0U);  // whole at any time
+  tables.flush();
+  EXPECT_EQ(read_csv(folder / "revolutions.csv").rows(), 1U);
   tables.close();
 
   const CsvTable revolutions = read_csv(folder / "revolutions.csv");

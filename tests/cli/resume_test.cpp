@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run that is ended in any way and taken up again leaves what a run that was never stopped leaves, bit for
+// bit.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
+
+#include "abradem/core/random.h"
+#include "abradem/io/csv.h"
+#include "cli/program.h"
+
+namespace abradem::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+const std::string kCase = std::string(ABRADEM_SOURCE_DIR) + "/cases/pin-on-disc.toml" +
+                          " --quiet --no-report --set wall.disc.mesh.size='0.5 mm' --set output.contours=36"
+                          " --set output.every='0.02 rev'";
+/// A fraction of a second of work.
+const std::string kDynamic = kCase + " --set run.end='0.16 rev'";
+const std::string kQuasiStatic = kCase + " --set run.end='0.5 rev' --set run.method=quasi_static";
+/// Checkpoints as often as the program looks.
+const std::string kOften = " --set output.checkpoint_every='20 ms'";
+
+json manifest(const fs::path& folder) { return json::parse(read_file(folder / "run.json")); }
+
+/// A run of the program that can be sent signals.
+class Running {
+ public:
+  Running(const std::string& arguments, const fs::path& folder) : process_(::fork()) {
+    if (process_ != 0) return;
+    const std::string command =
+        "cd '" + folder.string() + "' && exec '" ABRADEM_PROGRAM "' " + arguments + " 2>>messages";
+    ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    ::_exit(127);
+  }
+  ~Running() {
+    if (process_ > 0) end(SIGKILL);
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  void send(int signal) const { ::kill(process_, signal); }
+  /// @return its exit code, or 1000 + the signal that ended it
+  int wait() {
+    int status = 0;
+    ::waitpid(process_, &status, 0);
+    process_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  }
+  int end(int signal) {
+    send(signal);
+    return wait();
+  }
+
+ private:
+  pid_t process_;
+};
+
+bool wait_for(const std::function<bool()>& what) {
+  for (int i = 0; i < 3000; ++i) {
+    if (what()) return true;
+    std::this_thread::sleep_for(5ms);
+  }
+  return false;
+}
+
+std::size_t checkpoints(const fs::path& folder) {
+  std::error_code ignored;
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "restart", ignored))
+    count += entry.path().extension() == ".checkpoint";
+  return count;
+}
+
+/// Tables, surfaces and hash are the same, and nothing is left over.
+void expect_same(const fs::path& one, const fs::path& other) {
+  EXPECT_EQ(manifest(other)["status"], "completed");
+  EXPECT_EQ(manifest(one)["state_hash"], manifest(other)["state_hash"]);
+  EXPECT_EQ(manifest(one)["ledger"], manifest(other)["ledger"]);
+  EXPECT_EQ(manifest(one)["results"], manifest(other)["results"]);
+  std::size_t files = 0;
+  for (const char* part : {"tables", "vtk"}) {
+    for (const auto& entry : fs::directory_iterator(one / part)) {
+      const fs::path same = other / part / entry.path().filename();
+      EXPECT_TRUE(read_file(entry.path()) == read_file(same)) << same;
+      ++files;
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(one / part), {}),
+              std::distance(fs::directory_iterator(other / part), {}));
+  }
+  EXPECT_GE(files, 7U);
+  EXPECT_EQ(read_file(one / "series.pvd"), read_file(other / "series.pvd"));
+  EXPECT_LE(checkpoints(other), 2U);
+}
+
+/// Every file can be read as what it is, whenever it is looked at.
+void expect_valid(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / "run.json")) {
+    EXPECT_TRUE(json::accept(read_file(folder / "run.json")));
+  }
+  for (const char* part : {"tables", "vtk"}) {
+    for (const auto& entry : fs::directory_iterator(folder / part, ignored)) {
+      if (entry.path().extension() == ".csv") {
+        EXPECT_NO_THROW((void)io::read_csv(entry.path())) << entry.path();
+      } else if (entry.path().extension() == ".vtp") {
+        EXPECT_NE(read_file(entry.path()).find("</VTKFile>"), std::string::npos) << entry.path();
+      }
+    }
+  }
+}
+
+TEST(Resume, AfterSignalsGivesTheSameBits) {
+  for (const std::string& run : {kDynamic, kQuasiStatic}) {
+    const ScratchFolder scratch;
+    ASSERT_EQ(run_program("run " + run + " -o whole", scratch.path()).exit_code, 0);
+    const fs::path folder = scratch.path() / "cut";
+    for (const int signal : {SIGINT, SIGTERM}) {
+      // The first ends the run, the second the run that goes on.
+      Running running(
+          signal == SIGINT ? "run " + run + " -o cut" : "resume cut --quiet --no-report --threads 2",
+          scratch.path());
+      const int frames = signal == SIGINT ? 2 : 5;
+      ASSERT_TRUE(wait_for(
+          [&] { return fs::exists(folder / "vtk" / ("disc_000" + std::to_string(frames) + ".vtp")); }));
+      ASSERT_EQ(running.end(signal), 130);
+      EXPECT_EQ(manifest(folder)["status"], "interrupted");
+      EXPECT_EQ(manifest(folder)["checkpoint"]["steps"], manifest(folder)["steps"]);
+      expect_valid(folder);
+    }
+    const Outcome rest = run_program("resume cut --quiet --no-report --threads 1", scratch.path());
+    ASSERT_EQ(rest.exit_code, 0) << rest.err;
+    EXPECT_EQ(manifest(folder)["resumed"], 2);
+    expect_same(scratch.path() / "whole", folder);
+    // Once more changes nothing.
+    const std::string before = read_file(folder / "run.json");
+    EXPECT_EQ(run_program("resume cut", scratch.path()).exit_code, 0);
+    EXPECT_EQ(read_file(folder / "run.json"), before);
+  }
+}
+
+TEST(Resume, AfterKillsAtAnyMomentGivesTheSameBits) {
+  core::RandomStream random(20, 1);
+  int kills = 0;
+  for (const std::string& run : {kDynamic, kQuasiStatic}) {
+    const ScratchFolder scratch;
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_EQ(run_program("run " + run + kOften + " -o whole", scratch.path()).exit_code, 0);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (int k = 0; k < 8; ++k) {
+      const std::string name = "cut" + std::to_string(k);
+      bool begun = false;
+      for (int part = 0; part < 2; ++part) {
+        Running running(
+            begun ? "resume " + name + " --quiet --no-report" : "run " + run + kOften + " --force -o " + name,
+            scratch.path());
+        std::this_thread::sleep_for(std::chrono::duration<double>(random.uniform(0.0, 0.5 * seconds)));
+        kills += running.end(SIGKILL) == 1000 + SIGKILL;
+        begun = fs::exists(scratch.path() / name / "case.resolved.toml");
+        expect_valid(scratch.path() / name);
+      }
+      const Outcome rest = run_program(
+          begun ? "resume " + name + " --quiet --no-report" : "run " + run + kOften + " --force -o " + name,
+          scratch.path());
+      ASSERT_EQ(rest.exit_code, 0) << rest.err;
+      expect_same(scratch.path() / "whole", scratch.path() / name);
+      fs::remove_all(scratch.path() / name);
+    }
+  }
+  EXPECT_GT(kills, 16);
+}
+
+TEST(Resume, GoesOnPastTheEnd) {
+  const ScratchFolder scratch;
+  const std::string often = kCase + " --set output.every='0.03 rev'";
+  ASSERT_EQ(run_program("run " + often + " --set run.end='0.1 rev' -o short", scratch.path()).exit_code, 0);
+  ASSERT_EQ(run_program("run " + often + " --set run.end='0.15 rev' -o whole", scratch.path()).exit_code, 0);
+  const Outcome rest =
+      run_program("resume short --quiet --no-report --set run.end='0.15 rev'", scratch.path());
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  expect_same(scratch.path() / "whole", scratch.path() / "short");
+  EXPECT_EQ(read_file(scratch.path() / "whole" / "case.resolved.toml"),
+            read_file(scratch.path() / "short" / "case.resolved.toml"));
+  const auto refused = [&](const std::string& more, const std::string& why) {
+    const Outcome outcome = run_program("resume short --set " + more, scratch.path());
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+  };
+  refused("run.seed=2", "can change run.end and output.checkpoint_every, nothing else");
+  refused("run.end='0.05 rev'", "run.end lies before");
+  expect_same(scratch.path() / "whole", scratch.path() / "short");
+}
+
+TEST(Checkpoint, IsWrittenWhenAskedForAndTheRunGoesOn) {
+  const ScratchFolder scratch;
+  Running running("run " + kCase + " --set run.end='1000 rev' -o result", scratch.path());
+  const fs::path folder = scratch.path() / "result";
+  ASSERT_TRUE(wait_for([&] { return fs::exists(folder / "vtk" / "disc_0002.vtp"); }));
+  EXPECT_EQ(checkpoints(folder), 0U);
+  for (int k = 0; k < 3; ++k) {
+    const std::string before = fs::exists(folder / "run.json") ? read_file(folder / "run.json") : "";
+    running.send(SIGUSR1);
+    ASSERT_TRUE(wait_for(
+        [&] { return fs::exists(folder / "run.json") && read_file(folder / "run.json") != before; }));
+  }
+  EXPECT_EQ(checkpoints(folder), 2U);  // the last two are kept
+  const json run = manifest(folder);
+  EXPECT_EQ(run["status"], "running");
+  EXPECT_TRUE(run["exit_code"].is_null());
+  EXPECT_TRUE(fs::exists(folder / run["checkpoint"]["file"].get<std::string>()));
+  // A second program in the same folder is sent away.
+  const Outcome other = run_program("resume result", scratch.path());
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("another abradem works on"), std::string::npos) << other.err;
+  EXPECT_EQ(running.end(SIGINT), 130);
+}
+
+class BadCheckpoint : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(run_program("run " + kDynamic + " -o whole", scratch_.path()).exit_code, 0);
+    Running running("run " + kDynamic + kOften + " -o cut", scratch_.path());
+    ASSERT_TRUE(wait_for([&] { return checkpoints(folder_) == 2; }));
+    running.end(SIGKILL);
+    for (const auto& entry : fs::directory_iterator(folder_ / "restart"))
+      if (entry.path().extension() == ".checkpoint") files_.push_back(entry.path());
+    std::sort(files_.begin(), files_.end());
+    ASSERT_EQ(files_.size(), 2U);
+  }
+  Outcome resume() { return run_program("resume cut --quiet --no-report", scratch_.path()); }
+  ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path() / "cut";
+  std::vector<fs::path> files_;
+};
+
+TEST_F(BadCheckpoint, IsPassedOverForTheOneBefore) {
+  std::string bytes = read_file(files_[1]);
+  bytes[bytes.size() / 2] ^= 1;
+  write_file(files_[1], bytes);
+  const Outcome outcome = resume();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("it is damaged: its checksum is another"), std::string::npos) << outcome.err;
+  EXPECT_EQ(manifest(scratch_.path() / "whole")["state_hash"], manifest(folder_)["state_hash"]);
+  EXPECT_EQ(read_file(scratch_.path() / "whole/tables/force.csv"), read_file(folder_ / "tables/force.csv"));
+}
+
+TEST_F(BadCheckpoint, OfAnotherFormatIsRefusedInWords) {
+  for (const fs::path& file : files_) {
+    std::string bytes = read_file(file);
+    bytes[8] = 77;
+    write_file(file, bytes);
+  }
+  const std::string before = read_file(folder_ / "tables" / "force.csv");
+  const Outcome outcome = resume();
+  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_NE(outcome.err.find("it has format 77, and this program (abradem"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(read_file(folder_ / "tables" / "force.csv"), before);
+}
+
+TEST_F(BadCheckpoint, OfAFolderWithoutItsRowsIsRefused) {
+  fs::resize_file(folder_ / "tables" / "force.csv", 150);
+  const Outcome outcome = resume();
+  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_NE(outcome.err.find("force.csv' is not what it was when the checkpoint was written"),
+            std::string::npos)
+      << outcome.err;
+}
+
+TEST(Resume, RefusesWhatIsNoRun) {
+  const ScratchFolder scratch;
+  fs::create_directory(scratch.path() / "empty");
+  EXPECT_EQ(run_program("resume empty", scratch.path()).exit_code, 2);
+  EXPECT_EQ(run_program("resume nowhere", scratch.path()).exit_code, 2);
+}
+
+TEST(Resume, OfASweepIsTheSameCommandAgain) {
+  const ScratchFolder scratch;
+  const std::string sweep = "sweep " + std::string(ABRADEM_SOURCE_DIR) +
+                            "/cases/pin-on-disc.toml --quiet --jobs 2 --set wall.disc.mesh.size='0.5 mm'"
+                            " --set output.contours=36 --set output.every='0.02 rev' --set run.end='0.3 rev'"
+                            " --set output.checkpoint_every='50 ms'"
+                            " --vary 'contact.\"iron_ore/mild_steel\".static_friction=0.3,0.6' -o ";
+  ASSERT_EQ(run_program(sweep + "whole", scratch.path()).exit_code, 0);
+  const std::vector<fs::path> runs{scratch.path() / "cut/runs/0001", scratch.path() / "cut/runs/0002"};
+  {
+    Running running(sweep + "cut", scratch.path());
+    ASSERT_TRUE(wait_for([&] { return checkpoints(runs[0]) > 0 && checkpoints(runs[1]) > 0; }));
+    running.end(SIGKILL);
+  }
+  const Outcome rest = run_program(sweep + "cut", scratch.path());
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  int resumed = 0;
+  for (const fs::path& run : runs) {
+    const fs::path whole = scratch.path() / "whole/runs" / run.filename();
+    expect_same(whole, run);
+    resumed += manifest(run).value("resumed", 0);
+    EXPECT_EQ(checkpoints(run), 0U);  // done: no room is taken up
+  }
+  EXPECT_GE(resumed, 1);
+}
+
+}  // namespace
+}  // namespace abradem::test
