@@ -80,14 +80,19 @@ Page paper_page(const simulation::Setup& study, std::span<const StudyRun> study_
   std::set<std::filesystem::path> counted;
   for (const StudyRun& run : study_runs)
     if (counted.insert(run.folder).second) seconds += run.seconds;
-  page.cards = {{"claims in the file", std::to_string(runs.published.claims.size())},
-                {"that runs can answer", std::to_string(judged.size())},
-                {runs.readings[0].name + ": reproduced",
-                 fmt::format("{} of {}", theirs[0], std::accumulate(theirs.begin(), theirs.end(), 0))},
-                {runs.readings[1].name + ": reproduced",
-                 fmt::format("{} of {}", ours[0], std::accumulate(ours.begin(), ours.end(), 0))},
-                {"runs", fmt::format("{} of {}", completed, study_runs.size())},
-                {"time of all runs", fmt::format("{:.3g} s", seconds)}};
+  const auto is_figure = [](const PublishedClaim& claim) { return claim.kind == "figure"; };
+  const auto figures =
+      std::ranges::count_if(judged, [&](const JudgedClaim& j) { return is_figure(*j.claim); });
+  page.cards = {
+      {"claims of the paper", std::to_string(std::ssize(runs.published.claims) -
+                                             std::ranges::count_if(runs.published.claims, is_figure))},
+      {"that runs can answer", fmt::format("{}, and {} figures", std::ssize(judged) - figures, figures)},
+      {runs.readings[0].name + ": reproduced",
+       fmt::format("{} of {}", theirs[0], std::accumulate(theirs.begin(), theirs.end(), 0))},
+      {runs.readings[1].name + ": reproduced",
+       fmt::format("{} of {}", ours[0], std::accumulate(ours.begin(), ours.end(), 0))},
+      {"runs", fmt::format("{} of {}", completed, study_runs.size())},
+      {"time of all runs", fmt::format("{:.3g} s", seconds)}};
   page.sections.push_back(overview(judged, runs));
 
   PageSection mesh{"Mesh size", {}};

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abradem/report/paper_runs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "abradem/core/error.h"
 #include "abradem/material/material.h"
 
 namespace abradem::report {
@@ -96,10 +99,14 @@ double FinishedRun::at(double revolution, std::string_view column) const {
 
 FinishedRun read_finished(const StudyRun& run) {
   const std::filesystem::path tables = run.folder / "tables";
-  return {&run, read_table(tables / "revolutions.csv", kRevolutionColumns),
-          read_table(tables / "contours.csv", kContourColumns),
-          read_table(tables / "profiles.csv", kProfileColumns),
-          read_table(tables / "force.csv", kForceColumns)};
+  FinishedRun out{&run, read_table(tables / "revolutions.csv", kRevolutionColumns),
+                  read_table(tables / "contours.csv", kContourColumns),
+                  read_table(tables / "profiles.csv", kProfileColumns),
+                  read_table(tables / "force.csv", kForceColumns)};
+  if (out.revolutions.rows() == 0)
+    throw IoError(fmt::format("{}: no rows; expected one per output of a completed run",
+                              (tables / "revolutions.csv").string()));
+  return out;
 }
 
 std::vector<DrawnProfile> profiles_of(const FinishedRun& run, double revolution, double track) {

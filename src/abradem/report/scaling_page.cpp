@@ -167,9 +167,10 @@ Figure cost_figure(const Scaling& s) {
               .y = {.title = "off [%]"}};
   double low = 1e-2, high = 1.0;
   for (const Pin& pin : s.pins) {
-    Series l2{.kind = Kind::line_markers, .name = pin.name(), .colour = pin.colour}, d = l2, w = l2;
-    d.name += ", depth";
-    w.name += ", width";
+    const auto start = [&](const char* what) {
+      return Series{.kind = Kind::line_markers, .name = pin.name() + what, .colour = pin.colour};
+    };
+    Series l2 = start(""), d = start(", depth"), w = start(", width");
     w.dash = Series::Dash::dot;
     for (const Scaled& run : pin.runs) {
       d.x.push_back(run.factor);

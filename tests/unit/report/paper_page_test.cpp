@@ -168,6 +168,12 @@ TEST_F(PaperPage, LeavesOutWhatHasNoRunsAndSaysSo) {
   for (const auto& row : table(page, "claims").rows) EXPECT_EQ(row[4], "not run");
 }
 
+TEST_F(PaperPage, RefusesACompletedRunWithoutRows) {
+  SyntheticStudy study(folder_ / "empty");
+  study.add("mesh_size", study_->runs().front().setup, {.revolutions = 0});
+  EXPECT_THROW((void)paper_page(*setup_, study.runs(), folder_), IoError);
+}
+
 TEST_F(PaperPage, RefusesAFileThatNamesAnotherRule) {
   std::ifstream in(kClaims);
   std::string text{std::istreambuf_iterator<char>(in), {}};
