@@ -20,6 +20,8 @@ struct Furrow {
   simulation::Ledger ledger;
 };
 
+constexpr int kSections = 400;
+
 Furrow furrow(const PinOnPlate& pin, double removed_fraction, double ahead = 0.0) {
   simulation::Setup s = pin.setup();
   s.ploughing = simulation::PloughingSetup{.removed_fraction = removed_fraction, .ahead = ahead};
@@ -28,18 +30,23 @@ Furrow furrow(const PinOnPlate& pin, double removed_fraction, double ahead = 0.0
   const wear::WearingSurface& surface = run.walls()[0].surface();
   const auto region = analysis::worn_region(surface.mesh(), surface.reference());
   analysis::StraightCuts cuts;
-  cuts.along = {-0.3 * pin.amplitude, 0.3 * pin.amplitude};
-  cuts.count = 60;
+  // The whole of it: the areas are then volumes, whatever place each pile took along the way.
+  const double half_length = pin.amplitude + pin.margin;
+  cuts.along = {-half_length, half_length};
+  cuts.count = kSections;
   Furrow result;
   result.ledger = run.ledger();
   std::vector<analysis::Contour> contours =
       analysis::cut_contours(surface.mesh(), surface.reference(), region, cuts);
   result.sections = analysis::ridge_summary(contours);
-  for (analysis::Contour& c : contours) {
+  // Of the sections that meet the groove, as ridge_summary counts them.
+  const auto met = static_cast<double>(
+      std::ranges::count_if(contours, [](const analysis::Contour& c) { return !c.profile.empty(); }));
+  for (const analysis::Contour& c : contours) {
     std::vector<analysis::Contour> half(1);
     std::ranges::copy_if(c.profile, std::back_inserter(half[0].profile),
                          [](const auto& p) { return p.radius > 0.0; });
-    result.left += analysis::ridge_summary(half).ridge_area / 60.0;
+    result.left += analysis::ridge_summary(half).ridge_area / met;
   }
   result.right = result.sections.ridge_area - result.left;
   return result;
@@ -62,17 +69,18 @@ TEST_P(Ridges, HoldWhatLeftTheGrooveAndWasNotLost) {
   pin.half_width = 0.7e-3;
   pin.amplitude = 1.0e-3;
   pin.increment = 0.06e-3;
+  pin.size = 0.025e-3;
   const Furrow f = furrow(pin, c.removed);
   const std::string name = fmt::format("{}, f_ab = {}: ", c.name, c.removed);
   const double ratio = f.sections.ridge_area / f.sections.groove_area / (1.0 - c.removed) - 1.0;
   const double sides = (f.left - f.right) / f.sections.ridge_area;
   const double net = f.ledger.swept - f.ledger.law, groove = f.ledger.law + f.ledger.displaced;
   measured(name + "ridge over groove area against 1 - f_ab", ratio, c.bound);
-  measured(name + "left against right ridge", sides, 0.03);
+  measured(name + "left against right ridge", sides, 0.05);
   measured(name + "net volume against what was removed", net / groove, 1e-9);
   measured(name + "ledger", f.ledger.residual, 1e-9);
   EXPECT_LT(std::abs(ratio), c.bound);
-  EXPECT_LT(std::abs(sides), 0.03);
+  EXPECT_LT(std::abs(sides), 0.05);
   EXPECT_LT(std::abs(net), 1e-9 * groove);
   EXPECT_LT(f.ledger.residual, 1e-9);
   if (c.removed == 0.0) {

@@ -18,10 +18,12 @@
 #include "abradem/io/case_file.h"
 #include "abradem/io/wear_tests.h"
 #include "abradem/report/calibration_report.h"
+#include "abradem/report/groove_calibration_report.h"
 #include "abradem/report/page.h"
 #include "abradem/report/wear_law_report.h"
 #include "abradem/study/calibration.h"
 #include "abradem/study/wear_law.h"
+#include "abradem/study/groove_calibration.h"
 
 namespace abradem::cli {
 
@@ -99,6 +101,21 @@ int calibrate_case(const CalibrateArguments& arguments) {
 
   Status status(arguments.quiet);
   const StopSignals signals;
+  if (arguments.unknown == "groove") {
+    study::GrooveCalibrationOptions options;
+    options.coverage = arguments.coverage;
+    options.pair = arguments.pair;
+    options.watch = [&](const std::string& doing, double fraction) {
+      status.show(doing, fraction);
+      return !StopSignals::requested();
+    };
+    const study::GrooveCalibration result = study::calibrate_groove(setup, MeshLoader(setup), options);
+    status.clear();
+    write_results(arguments, report::groove_calibration_page(result, setup.title),
+                  report::groove_calibration_json(result));
+    if (!arguments.json) print_result(report::groove_calibration_text(result));
+    return static_cast<int>(ExitCode::ok);
+  }
   study::CalibrationOptions options;
   options.unknown =
       arguments.unknown == "revolutions" ? study::Unknown::revolutions : study::Unknown::wear_coefficient;

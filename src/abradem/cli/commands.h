@@ -51,7 +51,7 @@ struct CalibrateArguments {
   std::string path;    ///< case file, or a table of tests (.csv)
   std::string output;  ///< folder of the page; empty: none is written
   std::vector<std::string> overrides;
-  std::string unknown = "wear_coefficient";  ///< or "revolutions"
+  std::string unknown = "wear_coefficient";  ///< or "revolutions", "groove"
   std::string method;                        ///< of the trials; empty: quasi_static where it can be
   std::string pair;                          ///< "abrader/worn"; empty: the only one
   double coverage = 0.95;                    ///< of the intervals

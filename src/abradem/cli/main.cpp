@@ -98,9 +98,10 @@ void declare_calibrate(CLI::App& app, cli::CalibrateArguments& a) {
   calibrate
       ->add_option(
           "--for", a.unknown,
-          "What is sought: wear_coefficient (default), for the case's revolutions; or revolutions, for "
-          "its wear coefficient")
-      ->check(CLI::IsMember({"wear_coefficient", "revolutions"}));
+          "What is sought: wear_coefficient (default), for the case's revolutions; revolutions, for its wear "
+          "coefficient; or groove: the coefficients of disc and pin and the removed fraction, from volume, "
+          "depth and width")
+      ->check(CLI::IsMember({"wear_coefficient", "revolutions", "groove"}));
   calibrate->add_option("--pair", a.pair, "Which coefficient, where the case has several")
       ->type_name("ABRADER/WORN");
   calibrate

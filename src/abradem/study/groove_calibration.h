@@ -11,7 +11,7 @@
 
 /// Finding the three numbers behind a groove at once: the disc's wear coefficient, the pin's as a ratio to it
 /// and the removed fraction of ploughing, from volume, depth and width; how well the measurement tells them,
-/// and what would tell them better.                                        docs/theory/calibration.md#groove
+/// and what would tell them better.                                        docs/reference/calibrate.md#groove
 namespace abradem::study {
 
 inline constexpr std::size_t kGrooveUnknowns = 3;
