@@ -22,8 +22,8 @@
 #include "abradem/report/page.h"
 #include "abradem/report/wear_law_report.h"
 #include "abradem/study/calibration.h"
-#include "abradem/study/wear_law.h"
 #include "abradem/study/groove_calibration.h"
+#include "abradem/study/wear_law.h"
 
 namespace abradem::cli {
 

@@ -24,8 +24,8 @@ namespace abradem::report {
 /// A p-value for readers: two digits, one and the power of ten below 1e-4; an en dash where there is none.
 [[nodiscard]] std::string readable_p(double p);
 
-/// A sentence written for a terminal in ASCII as a page shows it: mm³ for mm^3, µm for um, α for alpha, ± for -+, R² for
-/// R2.
+/// A sentence written for a terminal in ASCII as a page shows it: mm³ for mm^3, µm for um, α for alpha, ± for
+/// -+, R² for R2.
 [[nodiscard]] std::string typeset(std::string_view text);
 
 /// A whole number with thin spaces between thousands.
