@@ -23,6 +23,12 @@ struct TipShape {
   std::uint64_t revision = 0;     ///< changes with the shape; 0: as new
 
   [[nodiscard]] int side() const noexcept { return 2 * half + 1; }
+  /// Place of the point (i, j) in `recession`, both counted from the middle.
+  [[nodiscard]] std::size_t index(int i, int j) const noexcept {
+    const int column = i + half, row = j + half;
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(side()) +
+           static_cast<std::size_t>(column);
+  }
   [[nodiscard]] double at(double s, double t) const noexcept {
     const double inverse = 1.0 / cell, x = s * inverse + half, y = t * inverse + half, end = 2.0 * half;
     if (!(x >= 0.0 && x < end && y >= 0.0 && y < end)) return 0.0;

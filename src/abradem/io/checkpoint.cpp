@@ -94,7 +94,7 @@ fs::path write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) 
   fs::create_directories(restart, error);
   if (error)
     throw IoError(fmt::format("cannot create the folder '{}': {}", restart.string(), error.message()));
-  const fs::path file = restart / fmt::format("{}{:015}{}", kPrefix, checkpoint.steps, kSuffix);
+  fs::path file = restart / fmt::format("{}{:015}{}", kPrefix, checkpoint.steps, kSuffix);
   write_file_atomically(file, to_bytes(checkpoint), true);
   const std::vector<fs::path> files = checkpoint_files(folder);
   for (std::size_t i = kKept; i < files.size(); ++i) fs::remove(files[i], error);

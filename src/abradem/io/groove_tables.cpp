@@ -39,7 +39,10 @@ void write_tip_surface(const std::filesystem::path& file, const simulation::Simu
   }
   for (int j = 0; j + 1 < side; ++j)
     for (int i = 0; i + 1 < side; ++i) {
-      const auto at = [&](int a, int b) { return number[static_cast<std::size_t>((j + b) * side + i + a)]; };
+      const auto at = [&](int a, int b) {
+        const int k = (j + b) * side + i + a;
+        return number[static_cast<std::size_t>(k)];
+      };
       const geometry::Index q[4]{at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
       if (q[0] < 0 || q[1] < 0 || q[2] < 0 || q[3] < 0) continue;
       mesh.triangles.push_back({q[0], q[1], q[2]});

@@ -48,7 +48,7 @@ struct AccelerationChoice {
 /// @param tried called after each comparison
 /// @throws InputError when nothing turns or oscillates, no wall deforms, or several tolerances are given
 [[nodiscard]] AccelerationChoice choose_acceleration(
-    const simulation::Setup& setup, const simulation::MeshSource& source = simulation::generate_mesh,
+    const simulation::Setup& setup, const simulation::MeshSource& given = simulation::generate_mesh,
     const std::function<bool()>& watch = {}, const std::function<void(const AccelerationTrial&)>& tried = {});
 
 /// The setup with one acceleration in all its wear pairs.

@@ -46,18 +46,17 @@ bool WearingTip::restored() {
 void WearingTip::grow(int half) {
   const contact::TipShape old = shape_;
   set_grid(half);
-  const int shift = half - old.half;
-  for (int j = 0; j < old.side(); ++j)
-    for (int i = 0; i < old.side(); ++i)
-      shape_.recession[static_cast<std::size_t>((j + shift) * shape_.side() + i + shift)] =
-          old.recession[static_cast<std::size_t>(j * old.side() + i)];
+  for (int j = -old.half; j <= old.half; ++j)
+    for (int i = -old.half; i <= old.half; ++i)
+      shape_.recession[shape_.index(i, j)] = old.recession[old.index(i, j)];
 }
 
 double WearingTip::s_of(std::size_t k) const noexcept {
   return shape_.cell * (static_cast<int>(k) % shape_.side() - shape_.half);
 }
 double WearingTip::t_of(std::size_t k) const noexcept {
-  return shape_.cell * (static_cast<int>(k) / shape_.side() - shape_.half);
+  const int row = static_cast<int>(k) / shape_.side();
+  return shape_.cell * (row - shape_.half);
 }
 
 /// Of the surface over the cell [m^2]. It faces along the axis, or as the sphere does where it is as new.
@@ -80,9 +79,7 @@ void WearingTip::coarsen() {
   shape_.cell *= 2.0;
   set_grid(old.half / 2 + 1);
   const auto r = [&](int i, int j) {
-    return std::max(std::abs(i), std::abs(j)) > from
-               ? 0.0
-               : old.recession[static_cast<std::size_t>((j + from) * old.side() + i + from)];
+    return std::max(std::abs(i), std::abs(j)) > from ? 0.0 : old.recession[old.index(i, j)];
   };
   for (int j = -shape_.half; j <= shape_.half; ++j)
     for (int i = -shape_.half; i <= shape_.half; ++i) {

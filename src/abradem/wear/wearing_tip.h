@@ -87,7 +87,7 @@ class WearingTip {
     }
   };
   template <typename Visit>
-  void cover(const contact::MeshCandidates& candidates, const Contact& contact, std::size_t triangle,
+  void cover(const contact::MeshCandidates& m, const Contact& contact, std::size_t triangle,
              const Visit& visit) const;
   template <typename Collect>
   void gather(const Contact& contact, const Vec3& deepest_at, const Collect& collect);
@@ -96,9 +96,7 @@ class WearingTip {
   [[nodiscard]] double area(std::size_t k) const noexcept;
   void grow(int half);
   void coarsen();
-  [[nodiscard]] std::size_t point(int i, int j) const noexcept {
-    return static_cast<std::size_t>((j + shape_.half) * shape_.side() + i + shape_.half);
-  }
+  [[nodiscard]] std::size_t point(int i, int j) const noexcept { return shape_.index(i, j); }
   void set_grid(int half);
 
   double R_, coarsest_;
