@@ -19,4 +19,12 @@ void parallel_for(std::size_t count, Body&& body) {
   for (std::ptrdiff_t i = 0; i < n; ++i) body(static_cast<std::size_t>(i));
 }
 
+/// The same for a few large bodies: shared out from two on.
+template <typename Body>
+void parallel_blocks(std::size_t count, Body&& body) {
+  const auto n = static_cast<std::ptrdiff_t>(count);
+#pragma omp parallel for schedule(static) if (n > 1)
+  for (std::ptrdiff_t i = 0; i < n; ++i) body(static_cast<std::size_t>(i));
+}
+
 }  // namespace abradem::core

@@ -65,14 +65,7 @@ void Simulation::find_pair_properties() {
     pairs_[a * n + b] = pairs_[b * n + a] = p;
     given[a * n + b] = given[b * n + a] = 1;
   }
-  for (const ParticleSetup& particle : setup_.particles)
-    for (const WallSetup& wall : setup_.walls) {
-      const auto a = static_cast<std::size_t>(index_of(setup_.materials, particle.material, "material"));
-      const auto b = static_cast<std::size_t>(index_of(setup_.materials, wall.material, "material"));
-      if (given[a * n + b] == 0)
-        throw InputError(fmt::format("particle '{}' can meet wall '{}', but no [contact.\"{}/{}\"] says how",
-                                     particle.name, wall.name, particle.material, wall.material));
-    }
+  refuse_missing_pairs(given);
   wear_.assign(n * n, 0.0);
   for (const WearSetup& w : setup_.wear) {
     const auto a = static_cast<std::size_t>(index_of(setup_.materials, w.abrader, "material"));
@@ -89,6 +82,34 @@ void Simulation::find_pair_properties() {
     acceleration_ = w.acceleration.factor;
     wear_[a * n + b] = w.wear_coefficient * acceleration_;
   }
+}
+
+/// Everything that can meet needs a [contact] of its materials. @param given of each pair of materials
+void Simulation::refuse_missing_pairs(const std::vector<char>& given) const {
+  struct Body {
+    std::string title, material;
+    bool alone;  ///< nothing of its own kind can meet it
+  };
+  std::vector<Body> bodies;
+  for (const ParticleSetup& p : setup_.particles)
+    bodies.push_back({fmt::format("particle '{}'", p.name), p.material, true});
+  for (const InsertionSetup& i : setup_.insertions)
+    bodies.push_back({fmt::format("insertion '{}'", i.name), i.material, false});
+  const std::size_t moving = bodies.size();
+  for (const WallSetup& wall : setup_.walls)
+    bodies.push_back({fmt::format("wall '{}'", wall.name), wall.material, true});
+  for (std::size_t i = 0; i < moving; ++i)
+    for (std::size_t j = i; j < bodies.size(); ++j) {
+      if (i == j && bodies[i].alone) continue;
+      const auto a = static_cast<std::size_t>(index_of(setup_.materials, bodies[i].material, "material"));
+      const auto b = static_cast<std::size_t>(index_of(setup_.materials, bodies[j].material, "material"));
+      if (given[a * materials_.size() + b] != 0) continue;
+      const std::string pair = fmt::format("[contact.\"{}/{}\"]", bodies[i].material, bodies[j].material);
+      throw InputError(i == j ? fmt::format("the particles of {} can meet one another, but no {} says how",
+                                            bodies[i].title, pair)
+                              : fmt::format("{} can meet {}, but no {} says how", bodies[i].title,
+                                            bodies[j].title, pair));
+    }
 }
 
 double Simulation::wear_coefficient(int abrader, int worn) const {
@@ -117,8 +138,7 @@ void Simulation::add_particles() {
   particles_.force.resize(particles_.size());
   particles_.torque.resize(particles_.size());
   stiffness_ratio_.assign(particles_.size(), 1.0);
-  for (std::size_t i = 0; i < particles_.size(); ++i)
-    for (std::size_t j = i + 1; j < particles_.size(); ++j) sphere_pairs_.push_back({i, j, {}, false});
+  if (particles_.size() > 1 || !setup_.insertions.empty()) bulk_.emplace(setup_, materials_, pairs_, particles_);
 }
 
 /// Sliding distance per step of `quasi_static`, as shares f of the contact's half-width a [m].
@@ -157,6 +177,8 @@ void Simulation::choose_time_step() {
 
   double wanted = setup_.run.time_step.value;
   if (setup_.run.method == Method::quasi_static) {
+    if (!setup_.insertions.empty())
+      throw InputError("method quasi_static balances guided particles; with an [insertion] use dynamic");
     double speed = 0.0;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       if (particles_.guide[p] == Vec3{} || norm(particles_.load[p]) == 0.0)
@@ -173,6 +195,10 @@ void Simulation::choose_time_step() {
       shortest = std::min(
           shortest, material::rayleigh_time(materials_[static_cast<std::size_t>(particles_.material[p])],
                                             particles_.radius[p]));
+    for (const InsertionSetup& i : setup_.insertions) {
+      const auto& m = materials_[static_cast<std::size_t>(index_of(setup_.materials, i.material, "material"))];
+      shortest = std::min(shortest, material::rayleigh_time(m, smallest_radius(i)));
+    }
     wanted *= shortest;
   }
   if (!(wanted > 0.0) || !std::isfinite(wanted)) throw InputError("the time step must be > 0");
@@ -243,6 +269,11 @@ void Simulation::find_contacts() {
     sphere_walls_[k].find(walls_[w], centre(p, w), particles_.radius[p],
                           pair(particles_.material[p], walls_[w].material()));
   });
+  if (bulk_) bulk_->find_contacts(surroundings(), particles_, paper_);
+}
+
+Surroundings Simulation::surroundings() noexcept {
+  return {walls_, poses_, pairs_, materials_.size(), dt_, time(), setup_.run.gravity};
 }
 
 void Simulation::compute_forces() {
@@ -260,37 +291,7 @@ void Simulation::compute_forces() {
     particles_.force[p] = force;
     particles_.torque[p] = torque;
   });
-  compute_sphere_pairs();
-}
-
-/// All pairs: for the handful of named particles of a case.
-void Simulation::compute_sphere_pairs() {
-  for (SpherePair& sp : sphere_pairs_) {
-    const auto [i, j] = std::pair(sp.i, sp.j);
-    const Vec3 offset = particles_.position[i] - particles_.position[j];
-    const double R_i = particles_.radius[i], R_j = particles_.radius[j], reach = R_i + R_j;
-    if (norm2(offset) >= reach * reach) {
-      sp.history = {};
-      continue;
-    }
-    const double distance = norm(offset), m_i = particles_.mass[i], m_j = particles_.mass[j];
-    const Vec3 n = offset / distance;
-    const double R_eff = R_i * R_j / reach, m_eff = m_i * m_j / (m_i + m_j), overlap = reach - distance;
-    const contact::PairProperties& properties = pair(particles_.material[i], particles_.material[j]);
-    const Vec3 v = particles_.velocity[i] - particles_.velocity[j] -
-                   cross(R_i * particles_.spin[i] + R_j * particles_.spin[j], n);
-    const contact::ContactState state{n, contact::hertz_force(properties, R_eff, overlap),
-                                      contact::contact_radius(R_eff, overlap), m_eff, v};
-    const contact::ContactForce f = contact::hertz_mindlin(properties, state, dt_, sp.history);
-    const Vec3 force = f.F_n * n + f.F_t;
-    particles_.force[i] += force;
-    particles_.force[j] -= force;
-    const double I_i = 0.4 * m_i * R_i * R_i, I_j = 0.4 * m_j * R_j * R_j;
-    const Vec3 rolling = contact::rolling_torque(
-        properties, R_eff, f.F_n, particles_.spin[i] - particles_.spin[j], I_i * I_j / (I_i + I_j), dt_);
-    particles_.torque[i] += cross(-R_i * n, f.F_t) + rolling;
-    particles_.torque[j] += cross(R_j * n, -f.F_t) - rolling;
-  }
+  if (bulk_) bulk_->compute_forces(surroundings(), particles_);
 }
 
 double Simulation::slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept {
@@ -312,6 +313,30 @@ void Simulation::accumulate_wear() {
           wall, alpha_s, particles_.radius[p], pair(particles_.material[p], wall.material()),
           [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); });
     }
+  if (!bulk_) return;
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    if (walls_[w].is_plane()) law_[w] += plane_wear(w);
+  for (BulkWalls::NearMesh& m : bulk_->walls().meshes()) {
+    const contact::SphereRow& s = bulk_->spheres().row[static_cast<std::size_t>(m.sphere)];
+    const auto w = static_cast<std::size_t>(m.wall);
+    const auto material = static_cast<int>(s.material);
+    const double alpha_s = wear_coefficient(material, walls_[w].material());
+    if (alpha_s == 0.0 || m.contact->touches().empty()) continue;
+    law_[w] += m.contact->deposit(walls_[w], alpha_s, s.radius, pair(material, walls_[w].material()),
+                                  [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
+  }
+}
+
+/// What the law would wear off an analytic plane, which keeps its shape [m^3].
+double Simulation::plane_wear(std::size_t w) const {
+  const contact::PlaneList& plane = bulk_->walls().planes()[w];
+  double volume = 0.0;
+  for (std::size_t k = 0; k < plane.size(); ++k) {
+    const auto& s = bulk_->spheres().row[static_cast<std::size_t>(plane.sphere[k])];
+    const double alpha_s = wear_coefficient(static_cast<int>(s.material), walls_[w].material());
+    volume += wear::archard_volume(alpha_s, {std::max(plane.F_n[k], 0.0), plane.slip[k]});
+  }
+  return volume;
 }
 
 void Simulation::deform_walls() {
@@ -350,10 +375,12 @@ void Simulation::integrate() {
     particles_.velocity[p] += dv;
     particles_.position[p] += particles_.velocity[p] * dt_;
   }
+  if (bulk_) bulk_->integrate(surroundings());
 }
 
 void Simulation::record() {
   check_state();
+  if (bulk_) bulk_->check(surroundings(), steps_);
   watch_stability();
   ++steps_;
   if (steps_ % steps_per_output_ == 0 || finished()) book_elements();
@@ -365,6 +392,9 @@ void Simulation::record() {
 void Simulation::book_elements() {
   for (std::size_t k = 0; k < sphere_walls_.size(); ++k)
     if (Wall& wall = walls_[k % walls_.size()]; !wall.is_plane()) sphere_walls_[k].book_elements(wall);
+  if (!bulk_) return;
+  for (BulkWalls::NearMesh& m : bulk_->walls().meshes())
+    m.contact->book_elements(walls_[static_cast<std::size_t>(m.wall)]);
 }
 
 void Simulation::check_state() const {
@@ -439,6 +469,13 @@ Ledger Simulation::ledger() {
     for (std::size_t p = 0; p < particles_.size(); ++p)
       if (wall.setup().deformation == DeformationRule::conserving)
         paper_[w] += sphere_walls_[p * walls_.size() + w].take_centroid_volume(wall);
+    if (bulk_)
+      for (BulkWalls::NearMesh& m : bulk_->walls().meshes()) {
+        if (static_cast<std::size_t>(m.wall) != w) continue;
+        if (wall.setup().deformation == DeformationRule::conserving)
+          paper_[w] += m.contact->take_centroid_volume(wall);
+        ledger.deposited += m.contact->pending_volume();
+      }
     const double swept = wall.surface().swept_volume();
     ledger.law += law_[w];
     ledger.deposited += wall.surface().deposited_volume();
@@ -478,7 +515,7 @@ std::uint64_t Simulation::state_hash() const {
     hash.add(wall.surface().element_volume());
   }
   for (const SphereWall& sw : sphere_walls_) sw.add_to(hash);
-  for (const SpherePair& sp : sphere_pairs_) hash.add(sp.history.s);
+  if (bulk_) bulk_->add_to(hash);
   return hash.value();
 }
 
@@ -488,7 +525,7 @@ double Simulation::kinetic_energy() const noexcept {
     energy += 0.5 * particles_.mass[p] *
               (norm2(particles_.velocity[p]) +
                0.4 * particles_.radius[p] * particles_.radius[p] * norm2(particles_.spin[p]));
-  return energy;
+  return energy + bulk_state().kinetic_energy;
 }
 
 }  // namespace abradem::simulation

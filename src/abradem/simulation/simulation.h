@@ -3,24 +3,18 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "abradem/contact/hertz_mindlin.h"
+#include "abradem/simulation/bulk.h"
+#include "abradem/simulation/particles.h"
 #include "abradem/simulation/setup.h"
 #include "abradem/simulation/sphere_wall.h"
 #include "abradem/simulation/wall.h"
 
 namespace abradem::simulation {
-
-/// Spheres as arrays; SI.
-struct Particles {
-  std::vector<Vec3> position, velocity, spin, force, torque, load, guide;  ///< guide: free direction, or zero
-  std::vector<double> radius, mass;
-  std::vector<int> material;
-  std::vector<std::string> name;
-  [[nodiscard]] std::size_t size() const noexcept { return radius.size(); }
-};
 
 /// What of the material lost is accounted for [m^3].
 struct Ledger {
@@ -114,23 +108,27 @@ class Simulation {
   [[nodiscard]] std::vector<StabilityLimit> limits() const;
   /// Hash of everything that the next step depends on.
   [[nodiscard]] std::uint64_t state_hash() const;
+  /// Particles in numbers and the contacts among spheres; none in a case of one particle.
+  [[nodiscard]] const std::optional<Bulk>& bulk() const noexcept { return bulk_; }
+  [[nodiscard]] BulkState bulk_state() const { return bulk_ ? bulk_->state(pairs_) : BulkState{}; }
+  /// Sum of the contact forces of particles in numbers on a wall, at the last step [N].
+  [[nodiscard]] Vec3 bulk_force_on_wall(std::size_t wall) const noexcept {
+    return bulk_ ? bulk_->walls().force_on(wall) : Vec3{};
+  }
   /// Kinetic energy of all particles [J].
   [[nodiscard]] double kinetic_energy() const noexcept;
 
  private:
-  struct SpherePair {
-    std::size_t i, j;
-    contact::TangentialHistory history;
-    bool touching = false;
-  };
-
   void add_particles();
+  [[nodiscard]] Surroundings surroundings() noexcept;
   void choose_time_step();
   [[nodiscard]] double choose_increment() const;
   void find_pair_properties();
   [[nodiscard]] const contact::PairProperties& pair(int a, int b) const {
     return pairs_[static_cast<std::size_t>(a) * setup_.materials.size() + static_cast<std::size_t>(b)];
   }
+  void refuse_missing_pairs(const std::vector<char>& given) const;
+  [[nodiscard]] double plane_wear(std::size_t wall) const;
   [[nodiscard]] double wear_coefficient(int abrader, int worn) const;
 
   void move_walls();
@@ -141,7 +139,6 @@ class Simulation {
   void integrate();
   void record();
 
-  void compute_sphere_pairs();
   void find_equilibrium(std::size_t p);
   [[nodiscard]] double slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept;
   void book_elements();
@@ -156,7 +153,7 @@ class Simulation {
   std::vector<Wall> walls_;
   std::vector<geometry::Pose> poses_;
   std::vector<SphereWall> sphere_walls_;  // particle-major
-  std::vector<SpherePair> sphere_pairs_;
+  std::optional<Bulk> bulk_;  // where spheres can meet spheres, or come in numbers
   std::vector<double> law_, paper_;  // per wall [m^3]
   double dt_ = 0.0, period_ = 0.0, end_ = 0.0, acceleration_ = 1.0;
   std::uint64_t steps_ = 0, total_steps_ = 0, steps_per_output_ = 1;

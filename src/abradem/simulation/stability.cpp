@@ -17,6 +17,7 @@ double damped_number(double stiffness, double damping, double mass, double dt) n
 }  // namespace
 
 void Simulation::watch_stability() {
+  if (bulk_) worst_damping_ = std::max(worst_damping_, bulk_->worst_stability());
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     double stiffness = 0.0, damping = 0.0;
     for (std::size_t w = 0; w < walls_.size(); ++w) {

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "abradem/core/vec3.h"
+
+/// Spheres in numbers, as the contact search and the forces among them see them.
+namespace abradem::contact {
+
+/// One sphere: three quads of doubles, each loaded whole. 96 bytes; no quad crosses a cache line.
+struct alignas(32) SphereRow {
+  double x = 0.0, y = 0.0, z = 0.0, radius = 0.0;         ///< [m]
+  double vx = 0.0, vy = 0.0, vz = 0.0, inverse_mass = 0;  ///< [m/s], [1/kg]
+  double wx = 0.0, wy = 0.0, wz = 0.0, material = 0.0;    ///< spin [rad/s]; number of the material
+
+  [[nodiscard]] Vec3 position() const noexcept { return {x, y, z}; }
+  [[nodiscard]] Vec3 velocity() const noexcept { return {vx, vy, vz}; }
+  [[nodiscard]] Vec3 spin() const noexcept { return {wx, wy, wz}; }
+  void set_position(const Vec3& p) noexcept { x = p.x, y = p.y, z = p.z; }
+  void set_velocity(const Vec3& v) noexcept { vx = v.x, vy = v.y, vz = v.z; }
+  void set_spin(const Vec3& w) noexcept { wx = w.x, wy = w.y, wz = w.z; }
+};
+
+/// What acts on one sphere, and beside it what the step's stability depends on.
+struct alignas(64) LoadRow {
+  double fx = 0.0, fy = 0.0, fz = 0.0, stiffness = 0.0;  ///< [N]; sum of the contacts' S_n [N/m]
+  double tx = 0.0, ty = 0.0, tz = 0.0, damping = 0.0;    ///< [N m]; sum of their damping [N s/m]
+
+  [[nodiscard]] Vec3 force() const noexcept { return {fx, fy, fz}; }
+  [[nodiscard]] Vec3 torque() const noexcept { return {tx, ty, tz}; }
+  LoadRow& operator+=(const LoadRow& o) noexcept {
+    fx += o.fx, fy += o.fy, fz += o.fz, stiffness += o.stiffness;
+    tx += o.tx, ty += o.ty, tz += o.tz, damping += o.damping;
+    return *this;
+  }
+};
+
+/// What a contact remembers: the tangential spring of the sphere that owns it [m].
+struct alignas(32) SpringRow {
+  double x = 0.0, y = 0.0, z = 0.0, unused = 0.0;
+};
+
+/// Spheres in numbers. Their order follows a space-filling curve and changes when the list of neighbours is
+/// made anew; `id` stays with a sphere for life.
+struct Spheres {
+  std::vector<SphereRow> row;
+  std::vector<std::int32_t> id;  ///< < 0: to be taken out at the next rebuild
+  [[nodiscard]] std::size_t size() const noexcept { return row.size(); }
+};
+
+}  // namespace abradem::contact
