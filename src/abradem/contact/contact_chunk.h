@@ -50,16 +50,17 @@ struct PairTable {
 
 /// Contacts side by side; symbols of hertz_mindlin.h. Elements beyond the last contact hold harmless numbers.
 struct ContactChunk {
-  static constexpr std::size_t kCapacity = 128;
+  static constexpr std::size_t kCapacity = 32;
   using Array = double[kCapacity];
   // Given: this body relative to the other.
   alignas(64) Array nx, ny, nz, overlap, R_eff, m_eff, vx, vy, vz;
   Array sx, sy, sz;                                                             // spring, in and out
   Array elastic, normal, tangential, damping_n, damping_t, friction, rolling;  // constants of the pair
   // Found.
-  Array fx, fy, fz, stiffness, F_n;  // force on this body [N], S_n
-  Array tx, ty, tz, damping;         // F_t x n: torque per lever arm [N]; D_n
-  Array slip;                        // plastic sliding times S_t [N]
+  Array fx, fy, fz, F_n;  // force on this body [N]
+  Array stiffening;       // 2 D_n dt + S_n dt^2: what the step's stability depends on [kg]
+  Array tx, ty, tz;       // F_t x n: torque per lever arm [N]
+  Array slip;             // plastic sliding times S_t [N]
 
   ABRADEM_INLINE void set_constants(std::size_t k, const PairConstants& p) noexcept {
     elastic[k] = p.elastic;
@@ -115,8 +116,7 @@ ABRADEM_INLINE void hertz_mindlin_loop(ContactChunk& c, std::size_t count, doubl
     c.fx[k] = F_n * nx + ftx;
     c.fy[k] = F_n * ny + fty;
     c.fz[k] = F_n * nz + ftz;
-    c.stiffness[k] = c.normal[k] * a;
-    c.damping[k] = D_n;
+    c.stiffening[k] = (2.0 * D_n + c.normal[k] * a * dt) * dt;
     c.tx[k] = fty * nz - ftz * ny;
     c.ty[k] = ftz * nx - ftx * nz;
     c.tz[k] = ftx * ny - fty * nx;

@@ -108,9 +108,9 @@ bool plane_forces(const Spheres& spheres, PlaneList& list, const MovingPlane& pl
       list.spring[k] = {spring.x, spring.y, spring.z, 0.0};
       const Vec3 torque = s.radius * Vec3{c.tx[m], c.ty[m], c.tz[m]} +
                           rolling_torque(pair, s, s.spin() - plane.pose.spin, c.F_n[m], dt);
-      list.load[k] = {c.fx[m], c.fy[m], c.fz[m], c.stiffness[m], torque.x, torque.y, torque.z, c.damping[m]};
+      list.load[k] = {c.fx[m], c.fy[m], c.fz[m], c.stiffening[m], torque.x, torque.y, torque.z, 0.0};
       list.F_n[k] = c.F_n[m];
-      list.slip[k] = c.slip[m] * pair.normal / (pair.tangential * c.stiffness[m]);
+      list.slip[k] = c.slip[m] / (pair.tangential * std::sqrt(c.R_eff[m] * c.overlap[m]));
     }
   });
   return std::ranges::none_of(deep, [](std::uint8_t d) { return d != 0; });

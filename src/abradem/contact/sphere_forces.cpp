@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 
 #include "abradem/contact/quads.h"
 #include "abradem/core/parallel.h"
@@ -19,7 +21,7 @@ constexpr std::size_t kCapacity = ContactChunk::kCapacity;
 struct PairChunk {
   ContactChunk c;
   alignas(64) double offset[4 * kCapacity];  // x_i - x_j and R_i + R_j, row by row
-  ContactChunk::Array reach, inverse_mass, R_i, ux, uy, uz, rx, ry, rz, inertia, tjx, tjy, tjz;
+  ContactChunk::Array reach, inverse_mass, R_i, ux, uy, uz, rx, ry, rz, inertia;
   std::int32_t pair[kCapacity];
 };
 
@@ -93,21 +95,6 @@ ABRADEM_INLINE double meet(PairChunk& p, std::size_t count) noexcept {
   return deepest;
 }
 
-/// Torques of the tangential forces on both spheres.
-ABRADEM_INLINE void lever(PairChunk& p, std::size_t count) noexcept {
-  ContactChunk& c = p.c;
-#pragma omp simd
-  for (std::size_t k = 0; k < count; ++k) {
-    const double R_i = p.R_i[k], R_j = p.reach[k] - R_i;
-    p.tjx[k] = c.tx[k] * R_j;
-    p.tjy[k] = c.ty[k] * R_j;
-    p.tjz[k] = c.tz[k] * R_j;
-    c.tx[k] *= R_i;
-    c.ty[k] *= R_i;
-    c.tz[k] *= R_i;
-  }
-}
-
 /// Rolling resistance of constant torque, as rolling_torque of hertz_mindlin.h, against w_i - w_j.
 ABRADEM_INLINE void roll(const Work& w, PairChunk& p, std::size_t count) noexcept {
   ContactChunk& c = p.c;
@@ -127,45 +114,45 @@ ABRADEM_INLINE void roll(const Work& w, PairChunk& p, std::size_t count) noexcep
     const double resistance = c.rolling[k] * c.R_eff[k] * F_n, most = p.inertia[k] * speed * inverse_dt;
     const double per_speed = (resistance < most ? resistance : most) / speed;
     const double scale = speed > 0.0 ? -per_speed : 0.0;
-    const double mx = p.rx[k] * scale, my = p.ry[k] * scale, mz = p.rz[k] * scale;
-    c.tx[k] += mx;
-    c.ty[k] += my;
-    c.tz[k] += mz;
-    p.tjx[k] -= mx;
-    p.tjy[k] -= my;
-    p.tjz[k] -= mz;
+    p.rx[k] *= scale;
+    p.ry[k] *= scale;
+    p.rz[k] *= scale;
   }
 }
 
 /// Arrays turned back into rows and added to the spheres, contact by contact in the order of the list.
+template <bool kRolling>
 ABRADEM_INLINE void scatter(const Work& w, PairChunk& p, std::size_t count) noexcept {
   ContactChunk& c = p.c;
   const Quad minus{-1.0, -1.0, -1.0, 1.0};
   for (std::size_t k = 0; k < count; k += 4) {
-    Quad f[4]{quad_at(c.fx + k), quad_at(c.fy + k), quad_at(c.fz + k), quad_at(c.stiffness + k)};
-    Quad t[4]{quad_at(c.tx + k), quad_at(c.ty + k), quad_at(c.tz + k), quad_at(c.damping + k)};
-    Quad tj[4]{quad_at(p.tjx + k), quad_at(p.tjy + k), quad_at(p.tjz + k), t[3]};
+    Quad f[4]{quad_at(c.fx + k), quad_at(c.fy + k), quad_at(c.fz + k), quad_at(c.stiffening + k)};
+    Quad t[4]{quad_at(c.tx + k), quad_at(c.ty + k), quad_at(c.tz + k), Quad{}};
     Quad s[4]{quad_at(c.sx + k), quad_at(c.sy + k), quad_at(c.sz + k), Quad{}};
+    Quad r[4]{};
     transpose(f[0], f[1], f[2], f[3]);
     transpose(t[0], t[1], t[2], t[3]);
-    transpose(tj[0], tj[1], tj[2], tj[3]);
     transpose(s[0], s[1], s[2], s[3]);
+    if constexpr (kRolling) {
+      r[0] = quad_at(p.rx + k), r[1] = quad_at(p.ry + k), r[2] = quad_at(p.rz + k);
+      transpose(r[0], r[1], r[2], r[3]);
+    }
     const std::size_t here = std::min<std::size_t>(4, count - k);
     for (std::size_t m = 0; m < here; ++m) {
       const auto pair = at(p.pair[k + m]);
+      const std::int32_t i = w.owner[pair], j = w.partner[pair];
       quad(w.spring[pair]) = s[m];
-      Quad* own = quads(w.load[w.owner[pair]]);
+      Quad* own = quads(w.load[i]);
+      Quad* other = quads(j < w.block_end ? w.load[j] : w.far_load[w.far[pair]]);
+      const Quad on_i = t[m] * w.sphere[i].radius, on_j = t[m] * w.sphere[j].radius;
       own[0] += f[m];
-      own[1] += t[m];
-      const std::int32_t j = w.partner[pair];
+      own[1] += kRolling ? on_i + r[m] : on_i;
       if (j < w.block_end) {
-        Quad* other = quads(w.load[j]);
         other[0] += f[m] * minus;
-        other[1] += tj[m];
+        other[1] += kRolling ? on_j - r[m] : on_j;
       } else {
-        Quad* other = quads(w.far_load[w.far[pair]]);
         other[0] = f[m] * minus;
-        other[1] = tj[m];
+        other[1] = kRolling ? on_j - r[m] : on_j;
       }
     }
   }
@@ -188,9 +175,12 @@ ABRADEM_INLINE double flush(const Work& w, PairChunk& p, std::size_t count) noex
     }
   const double deepest = meet(p, padded);
   hertz_mindlin_loop(p.c, padded, w.dt);
-  lever(p, padded);
-  if (w.table->rolling) roll(w, p, padded);
-  scatter(w, p, count);
+  if (w.table->rolling) {
+    roll(w, p, padded);
+    scatter<true>(w, p, count);
+  } else {
+    scatter<false>(w, p, count);
+  }
   return deepest;
 }
 
@@ -200,26 +190,63 @@ ABRADEM_INLINE void release(const Work& w, std::size_t k) noexcept {
   if (w.partner[k] >= w.block_end) w.far_load[w.far[k]] = {};
 }
 
-/// All pairs of one block. What overlaps is gathered into a chunk; full chunks go through the law.
+/// Where byte m of eight stands in a word.
+constexpr unsigned byte_shift(std::size_t m) noexcept {
+  return static_cast<unsigned>(std::endian::native == std::endian::little ? 8 * m : 56 - 8 * m);
+}
+
+/// All pairs of one block, eight at a time. What overlaps is gathered into a chunk; full chunks go through the
+/// law. (Copies of w's pointers: stores to `touching`, which are bytes, may alias anything.)
 ABRADEM_DISPATCH double block_forces(const Work& w, std::int32_t first, std::int32_t last,
                                      PairChunk& p) noexcept {
   const Quad minus{-1.0, -1.0, -1.0, 1.0};
+  const SphereRow* const sphere = w.sphere;
+  const std::int32_t* const owner = w.owner;
+  const std::int32_t* const partner = w.partner;
+  std::uint8_t* const touching = w.touching;
   double deepest = -1.0;
   std::size_t count = 0;
-  for (std::int32_t pair = first; pair < last; ++pair) {
+  std::int32_t pair = first;
+  for (; pair + 8 <= last; pair += 8) {
     const auto k = at(pair);
-    const Quad d = quads(w.sphere[w.owner[k]])[0] + quads(w.sphere[w.partner[k]])[0] * minus;
-    const Quad squared = d * d;
-    const bool overlaps = (squared[0] + squared[1]) + (squared[2] - squared[3]) < 0.0;
-    quad_at(p.offset + 4 * count) = d;
-    p.pair[count] = pair;
-    if (w.touching[k] > static_cast<std::uint8_t>(overlaps)) release(w, k);
-    w.touching[k] = static_cast<std::uint8_t>(overlaps);
-    count += overlaps;
-    if (count == kCapacity) {
+    Quad d[8];
+    std::uint64_t gap[8];  // bits of |x_i - x_j|^2 - (R_i + R_j)^2
+    for (std::size_t half = 0; half < 8; half += 4) {
+      Quad column[4];
+      for (std::size_t m = 0; m < 4; ++m)
+        column[m] = d[half + m] =
+            quads(sphere[owner[k + half + m]])[0] + quads(sphere[partner[k + half + m]])[0] * minus;
+      transpose(column[0], column[1], column[2], column[3]);
+      const Quad g = column[0] * column[0] + column[1] * column[1] + column[2] * column[2] - column[3] * column[3];
+      quad_at(reinterpret_cast<double*>(gap) + half) = g;
+    }
+    std::uint64_t now = 0, before = 0;
+    for (std::size_t m = 0; m < 8; ++m) {
+      const std::uint64_t overlaps = gap[m] >> 63;  // the sign
+      quad_at(p.offset + 4 * count) = d[m];
+      p.pair[count] = pair + static_cast<std::int32_t>(m);
+      count += overlaps;
+      now |= overlaps << byte_shift(m);
+    }
+    std::memcpy(&before, touching + k, 8);
+    std::memcpy(touching + k, &now, 8);
+    if ((before & ~now) != 0) [[unlikely]]
+      for (std::size_t m = 0; m < 8; ++m)
+        if (((before & ~now) >> byte_shift(m) & 1U) != 0) release(w, k + m);
+    if (count + 8 > kCapacity) {
       deepest = std::max(deepest, flush(w, p, count));
       count = 0;
     }
+  }
+  for (; pair < last; ++pair) {
+    const auto k = at(pair);
+    const Quad d = quads(sphere[owner[k]])[0] + quads(sphere[partner[k]])[0] * minus, s = d * d;
+    const bool overlaps = s[0] + s[1] + s[2] - s[3] < 0.0;
+    quad_at(p.offset + 4 * count) = d;
+    p.pair[count] = pair;
+    if (touching[k] != 0 && !overlaps) release(w, k);
+    touching[k] = static_cast<std::uint8_t>(overlaps);
+    count += overlaps;
   }
   return count > 0 ? std::max(deepest, flush(w, p, count)) : deepest;
 }
@@ -274,7 +301,7 @@ ABRADEM_DISPATCH Advance advance_block(SphereRow* __restrict sphere, const LoadR
     s[2] += l[1] * I;
     const Quad v_2 = v * v;
     const double v2 = v_2[0] + v_2[1] + v_2[2], way2 = v2 / (R * R);
-    const double number = (2.0 * load[i].damping + load[i].stiffness * dt) * per_mass;
+    const double number = load[i].stiffening * sphere[i].inverse_mass;
     met.finite &= v2 < 1e300;
     fastest2 = v2 > fastest2 ? v2 : fastest2;
     longest2 = way2 > longest2 ? way2 : longest2;

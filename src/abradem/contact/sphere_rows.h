@@ -25,14 +25,16 @@ struct alignas(32) SphereRow {
 
 /// What acts on one sphere, and beside it what the step's stability depends on.
 struct alignas(64) LoadRow {
-  double fx = 0.0, fy = 0.0, fz = 0.0, stiffness = 0.0;  ///< [N]; sum of the contacts' S_n [N/m]
-  double tx = 0.0, ty = 0.0, tz = 0.0, damping = 0.0;    ///< [N m]; sum of their damping [N s/m]
+  double fx = 0.0, fy = 0.0, fz = 0.0;   ///< [N]
+  double stiffening = 0.0;               ///< sum over the contacts of 2 D_n dt + S_n dt^2: M (2 g + W) [kg]
+  double tx = 0.0, ty = 0.0, tz = 0.0;   ///< [N m]
+  double unused = 0.0;
 
   [[nodiscard]] Vec3 force() const noexcept { return {fx, fy, fz}; }
   [[nodiscard]] Vec3 torque() const noexcept { return {tx, ty, tz}; }
   LoadRow& operator+=(const LoadRow& o) noexcept {
-    fx += o.fx, fy += o.fy, fz += o.fz, stiffness += o.stiffness;
-    tx += o.tx, ty += o.ty, tz += o.tz, damping += o.damping;
+    fx += o.fx, fy += o.fy, fz += o.fz, stiffening += o.stiffening;
+    tx += o.tx, ty += o.ty, tz += o.tz;
     return *this;
   }
 };

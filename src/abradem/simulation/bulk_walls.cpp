@@ -159,7 +159,7 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
   std::vector<std::uint8_t> deep(meshes_.size(), 0);
   core::parallel_for(meshes_.size(), [&](std::size_t k) {
     NearMesh& m = meshes_[k];
-    if (m.contact->touches().empty() && m.load.stiffness == 0.0) return;
+    if (m.contact->touches().empty() && m.load.stiffening == 0.0) return;
     const contact::SphereRow& s = spheres.row[at(m.sphere)];
     const Wall& wall = around.walls[at(m.wall)];
     const material::PairProperties& pair = around.pair(static_cast<int>(s.material), wall.material());
@@ -168,8 +168,8 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
     m.load = {f.force.x, f.force.y, f.force.z, 0.0, f.torque.x, f.torque.y, f.torque.z, 0.0};
     for (const SphereWall::Touch& t : m.contact->touches()) {
       const double S = contact::normal_stiffness(pair, t.a);
-      m.load.stiffness += S;
-      m.load.damping += contact::damping_coefficient(pair, S, sphere.mass);
+      const double D = contact::damping_coefficient(pair, S, sphere.mass);
+      m.load.stiffening += (2.0 * D + S * around.dt) * around.dt;
       deep[k] = deep[k] != 0 || t.overlap > 0.5 * contact::kDeepest * s.radius;
     }
   });
