@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "abradem/analysis/wall_contours.h"
 #include "abradem/core/error.h"
@@ -50,6 +51,13 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder)
              {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts",
               "normal_along_N", "normal_across_N", "normal_sum_N"}) {
   if (run.setup().output.frames != simulation::Frames::none) made(folder_ / "vtk");
+  if (!run.setup().insertions.empty()) {
+    bulk_.emplace(folder_ / "tables" / "particles.csv",
+                  std::vector<std::string>{"time_s", "particles", "mass_kg", "inserted", "removed", "removed_mass_kg",
+                                           "contacts", "wall_contacts", "kinetic_energy_J", "elastic_energy_J",
+                                           "fastest_m_per_s"});
+    write_bulk();
+  }
   worn_wall_ = analysis::worn_wall(run.walls());
   for (std::size_t p = run.particles().size(); p-- > 0;)
     if (norm2(run.particles().load[p]) > 0.0) watched_particle_ = p;
@@ -87,6 +95,7 @@ void RunRecorder::output(bool last) {
                                    {ledger_.law, ledger_.swept, ledger_.paper}, contours, normal_force_);
   normal_force_ = {};
   tables_.add(*last_, contours);
+  if (bulk_) write_bulk();
   if (last || run_.setup().output.frames == simulation::Frames::all) write_frame();
 }
 
@@ -110,13 +119,44 @@ void RunRecorder::write_frame() {
     }
     frames_.push_back({time, file, static_cast<int>(w)});
   }
-  if (run_.particles().size() > 0) {
+  if (run_.particles().size() > 0 || run_.bulk()) {
     const std::string file = fmt::format("vtk/particles_{:04}.vtp", frame_);
-    write_vtp_spheres(folder_ / file, run_.particles().position, run_.particles().radius);
+    write_spheres(folder_ / file);
     frames_.push_back({time, file, static_cast<int>(run_.walls().size())});
   }
   write_pvd(folder_ / "series.pvd", frames_);
   ++frame_;
+}
+
+/// The named particles, then those in numbers, by id.
+void RunRecorder::write_spheres(const std::filesystem::path& path) const {
+  std::vector<Vec3> position = run_.particles().position, velocity = run_.particles().velocity;
+  std::vector<double> radius = run_.particles().radius, id(radius.size()), speeds;
+  std::iota(id.begin(), id.end(), 0.0);
+  if (run_.bulk()) {
+    const contact::Spheres& spheres = run_.bulk()->spheres();
+    std::vector<std::size_t> order(spheres.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t i) { return spheres.id[i]; });
+    for (const std::size_t i : order) {
+      if (spheres.id[i] < run_.bulk()->named()) continue;
+      position.push_back(spheres.row[i].position());
+      velocity.push_back(spheres.row[i].velocity());
+      radius.push_back(spheres.row[i].radius);
+      id.push_back(spheres.id[i]);
+    }
+  }
+  for (const Vec3& v : velocity) speeds.insert(speeds.end(), {v.x, v.y, v.z});
+  const VtpArray arrays[]{{"velocity_m_per_s", speeds, 3}, {"id", id, 1}};
+  write_vtp_spheres(path, position, radius, arrays);
+}
+
+/// tables/particles.csv: what became of the particles in numbers.
+void RunRecorder::write_bulk() {
+  const simulation::BulkState s = run_.bulk_state();
+  bulk_->row({run_.test_time(), static_cast<double>(s.present), s.mass, static_cast<double>(s.inserted),
+              static_cast<double>(s.removed), s.removed_mass, static_cast<double>(s.pair_contacts),
+              static_cast<double>(s.wall_contacts), s.kinetic_energy, s.elastic_energy, s.fastest});
 }
 
 /// tables/wear.csv: the elements of the worn wall that lost material, in its reference numbering.
@@ -143,6 +183,7 @@ void RunRecorder::close() {
   run_.on_step({});
   tables_.close();
   force_.close();
+  if (bulk_) bulk_->close();
   write_elements();
 }
 

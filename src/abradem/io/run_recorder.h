@@ -38,6 +38,8 @@ class RunRecorder {
   void observe(const simulation::Simulation& run);
   [[nodiscard]] std::vector<analysis::Contour> cut_contours() const;
   void write_frame();
+  void write_spheres(const std::filesystem::path& path) const;
+  void write_bulk();
   void write_elements() const;
 
   simulation::Simulation& run_;
@@ -47,6 +49,7 @@ class RunRecorder {
   std::uint64_t force_stride_ = 1;
   WearTables tables_;
   CsvWriter force_;
+  std::optional<CsvWriter> bulk_;
   analysis::RunningStatistics normal_force_;
   std::vector<PvdEntry> frames_;
   int frame_ = 0;
