@@ -44,6 +44,7 @@ class SphereWall {
     double deepest = 0.0;        ///< largest local overlap [m]
     int key = -1;                ///< per_triangle: mesh triangle
     int part = 0;                ///< patch or flat set that it stands for
+    int nearest = -1;            ///< point contacts: candidate triangle that holds the nearest point
     contact::ContactForce force;
   };
 
@@ -106,6 +107,7 @@ class SphereWall {
     bool used = false;
   };
   void deposit_one(Wall& wall, const Touch& touch, double dV, double R, const contact::PairProperties& pair);
+  bool deposit_inside(Wall& wall, const Touch& touch, double dV, double R, const contact::PairProperties& pair);
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
   contact::TangentialHistory& recall(const Touch& touch, ContactRule rule);
   void add_centroid_motion(const Wall& wall);
