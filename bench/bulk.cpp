@@ -142,7 +142,8 @@ int time(const std::string& path, long steps, long runs) {
   getrusage(RUSAGE_SELF, &usage);
   fmt::print(
       "{} spheres, {} threads, {} runs of {} steps of {:.3g} s\n"
-      "particle-steps per second of wall time: median {:.3g}, best {:.3g}; of user time: median {:.3g}, best {:.3g}\n"
+      "particle-steps per second of wall time: median {:.3g}, best {:.3g}; of user time: median {:.3g}, best "
+      "{:.3g}\n"
       "at the start {} contacts among spheres, {} with walls, elastic energy {:.9g} J\n"
       "{:.2f} listed pairs a sphere, {} rebuilds, at most {:.0f} bytes a sphere, state {:016x}\n",
       s.present, omp_get_max_threads(), runs, steps, run.time_step(), wall[wall.size() / 2], wall.back(),
@@ -158,9 +159,12 @@ int time(const std::string& path, long steps, long runs) {
 int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   const auto number = [&](int k, long otherwise) { return argc > k ? std::atol(argv[k]) : otherwise; };
-  if (what == "make" && argc > 3) return make(static_cast<std::size_t>(number(2, 0)), argv[3], number(4, 24000));
+  if (what == "make" && argc > 3)
+    return make(static_cast<std::size_t>(number(2, 0)), argv[3], number(4, 24000));
   if (what == "time" && argc > 2) return time(argv[2], number(3, 200), number(4, 5));
   if (what == "count" && argc > 2) return count(argv[2]);
-  fmt::print(stderr, "usage: abradem_bulk make N POSITIONS.csv [steps] | time POSITIONS.csv [steps] [runs] | count POSITIONS.csv\n");
+  fmt::print(stderr,
+             "usage: abradem_bulk make N POSITIONS.csv [steps] | time POSITIONS.csv [steps] [runs] | count "
+             "POSITIONS.csv\n");
   return 2;
 }

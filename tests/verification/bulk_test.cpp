@@ -43,7 +43,8 @@ simulation::Setup grains(double restitution, double friction, double side) {
 }
 
 /// A jittered lattice, `across` by `across` on the ground, each with a random velocity.
-std::vector<PlacedSphere> lattice(std::size_t count, std::size_t across, double R, double pitch, double speed) {
+std::vector<PlacedSphere> lattice(std::size_t count, std::size_t across, double R, double pitch,
+                                  double speed) {
   core::RandomStream random(5);
   std::vector<PlacedSphere> spheres;
   const double play = 0.45 * (pitch - 2.0 * R);
@@ -79,8 +80,8 @@ TEST(Bulk, ClosedSystemKeepsMomentumAndEnergy) {
     if (k % 20 == 0) most = std::max(most, run.bulk_state().pair_contacts);
   }
   const BulkState end = run.bulk_state();
-  EXPECT_GT(most, 100u);  // they do meet
-  EXPECT_LT(norm(momentum() - p) / scale, 1e-13);               // action is reaction
+  EXPECT_GT(most, 100u);                           // they do meet
+  EXPECT_LT(norm(momentum() - p) / scale, 1e-13);  // action is reaction
   const double error = std::abs(end.kinetic_energy + end.elastic_energy - energy) / energy;
   EXPECT_LT(error, 2e-3);  // second order in the step, of which an impact takes some tens
   RecordProperty("energy_error", std::to_string(error));
@@ -107,14 +108,23 @@ double fraction_within(const contact::Spheres& spheres, const Vec3& low, const V
   const std::size_t nx = n(low.x, high.x), ny = n(low.y, high.y), nz = n(low.z, high.z);
   std::vector<char> filled(nx * ny * nz, 0);
   for (const contact::SphereRow& s : spheres.row) {
-    const auto first = [&](double x, double l) { return static_cast<std::ptrdiff_t>(std::ceil((x - s.radius - l) / pitch)); };
-    const auto last = [&](double x, double l) { return static_cast<std::ptrdiff_t>(std::floor((x + s.radius - l) / pitch)); };
-    for (auto i = std::max<std::ptrdiff_t>(0, first(s.x, low.x)); i <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(nx) - 1, last(s.x, low.x)); ++i)
-      for (auto j = std::max<std::ptrdiff_t>(0, first(s.y, low.y)); j <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(ny) - 1, last(s.y, low.y)); ++j)
-        for (auto k = std::max<std::ptrdiff_t>(0, first(s.z, low.z)); k <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(nz) - 1, last(s.z, low.z)); ++k) {
-          const Vec3 p = low + pitch * Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+    const auto first = [&](double x, double l) {
+      return static_cast<std::ptrdiff_t>(std::ceil((x - s.radius - l) / pitch));
+    };
+    const auto last = [&](double x, double l) {
+      return static_cast<std::ptrdiff_t>(std::floor((x + s.radius - l) / pitch));
+    };
+    for (auto i = std::max<std::ptrdiff_t>(0, first(s.x, low.x));
+         i <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(nx) - 1, last(s.x, low.x)); ++i)
+      for (auto j = std::max<std::ptrdiff_t>(0, first(s.y, low.y));
+           j <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(ny) - 1, last(s.y, low.y)); ++j)
+        for (auto k = std::max<std::ptrdiff_t>(0, first(s.z, low.z));
+             k <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(nz) - 1, last(s.z, low.z)); ++k) {
+          const Vec3 p =
+              low + pitch * Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
           if (norm2(p - s.position()) < s.radius * s.radius)
-            filled[(static_cast<std::size_t>(i) * ny + static_cast<std::size_t>(j)) * nz + static_cast<std::size_t>(k)] = 1;
+            filled[(static_cast<std::size_t>(i) * ny + static_cast<std::size_t>(j)) * nz +
+                   static_cast<std::size_t>(k)] = 1;
         }
   }
   std::size_t count = 0;
@@ -133,7 +143,8 @@ TEST(Bulk, FrictionlessGrainsPackAtRandomCloseDensity) {
   const BulkState s = run.bulk_state();
   // Walls put their neighbours into layers: within seven radii of them the fraction goes up and down.
   const double wall = 7.0 * R;
-  const double packed = fraction_within(run.bulk()->spheres(), {wall, wall, wall}, {side - wall, side - wall, 18 * R}, 0.1 * R);
+  const double packed =
+      fraction_within(run.bulk()->spheres(), {wall, wall, wall}, {side - wall, side - wall, 18 * R}, 0.1 * R);
   EXPECT_GT(packed, 0.635);
   EXPECT_LT(packed, 0.645);
   RecordProperty("fraction", std::to_string(packed));
@@ -195,7 +206,9 @@ TEST(Bulk, WearOnAMovingDeformingWallIsAllAccountedForOnAnyNumberOfThreads) {
     const BulkState s = run.bulk_state();
     EXPECT_GT(s.inserted, 3050u);
     EXPECT_EQ(s.present + s.removed, s.inserted);
-    EXPECT_GT(s.wall_contacts, 30u);
+    EXPECT_GT(
+        std::ranges::count_if(run.walls()[0].surface().element_volume(), [](double v) { return v > 0.0; }),
+        500);
     EXPECT_GT(ledger.law, 0.0);
     EXPECT_LT(ledger.residual, 1e-9);
     RecordProperty("residual", std::to_string(1e12 * ledger.residual) + "e-12");

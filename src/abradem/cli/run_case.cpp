@@ -124,9 +124,10 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
   if (run.bulk())
     for (const simulation::Inserter& inserter : run.bulk()->inserters())
       if (inserter.waiting())
-        warn(fmt::format("insertion '{}': its volume was full at the last try after {} particles; what comes in lags "
-                         "behind its mass_rate",
-                         inserter.setup().name, inserter.inserted()));
+        warn(fmt::format(
+            "insertion '{}': its volume was full at the last try after {} particles; what comes in lags "
+            "behind its mass_rate",
+            inserter.setup().name, inserter.inserted()));
   if (record.ledger.residual > 1e-9)
     warn(fmt::format("the ledger does not close: residual {:.3g}", record.ledger.residual));
   for (const simulation::WearSetup& wear : run.setup().wear)

@@ -15,13 +15,13 @@ namespace abradem::contact {
 
 /// What the law needs of a pair of materials, multiplied out; a symmetric table of these by material.
 struct PairConstants {
-  double elastic = 0.0;             ///< (4/3) E_eff: F = elastic a overlap [Pa]
-  double normal = 0.0;              ///< 2 E_eff: S_n = normal a [Pa]
-  double tangential = 0.0;          ///< 8 G_eff: S_t = tangential a [Pa]
-  double damping_n = 0.0;           ///< D_n = damping_n sqrt(a m_eff)
-  double damping_t = 0.0;           ///< D_t likewise
-  double friction = 0.0;            ///< mu
-  double rolling = 0.0;             ///< mu_r
+  double elastic = 0.0;     ///< (4/3) E_eff: F = elastic a overlap [Pa]
+  double normal = 0.0;      ///< 2 E_eff: S_n = normal a [Pa]
+  double tangential = 0.0;  ///< 8 G_eff: S_t = tangential a [Pa]
+  double damping_n = 0.0;   ///< D_n = damping_n sqrt(a m_eff)
+  double damping_t = 0.0;   ///< D_t likewise
+  double friction = 0.0;    ///< mu
+  double rolling = 0.0;     ///< mu_r
   [[nodiscard]] static PairConstants of(const material::PairProperties& p) noexcept {
     constexpr double two_sqrt_5_6 = 1.8257418583505538;
     return {4.0 / 3.0 * p.E_eff,
@@ -34,8 +34,8 @@ struct PairConstants {
   }
 };
 
-/// Two overlap too deeply beyond this part of their effective radius (a tenth of the radius, for equal spheres):
-/// Hertz's small contact is long gone.
+/// Two overlap too deeply beyond this part of their effective radius (a tenth of the radius, for equal
+/// spheres): Hertz's small contact is long gone.
 inline constexpr double kDeepest = 0.2;
 
 /// Constants of every pair of materials.
@@ -54,7 +54,7 @@ struct ContactChunk {
   using Array = double[kCapacity];
   // Given: this body relative to the other.
   alignas(64) Array nx, ny, nz, overlap, R_eff, m_eff, vx, vy, vz;
-  Array sx, sy, sz;                                                             // spring, in and out
+  Array sx, sy, sz;                                                            // spring, in and out
   Array elastic, normal, tangential, damping_n, damping_t, friction, rolling;  // constants of the pair
   // Found.
   Array fx, fy, fz, F_n;  // force on this body [N]

@@ -120,7 +120,9 @@ void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec
 void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
                             const CandidateSkin& skin) {
   const TriangleMesh& mesh = surface.mesh;
-  if (local_.size() != mesh.vertices.size()) local_.assign(mesh.vertices.size(), -1);
+  // One for each thread and not for each sphere: there may be thousands beside a large mesh.
+  static thread_local std::vector<std::int32_t> local_of;  // local number of a mesh vertex, or -1
+  if (local_of.size() < mesh.vertices.size()) local_of.resize(mesh.vertices.size(), -1);
   // A little more than asked for, so that a reach that wavers does not gather every step.
   built_reach_ = reach + 0.25 * skin.normal;
   // With no axis every direction is as likely: the whole skin counts as both.
@@ -149,7 +151,7 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
     triangle.push_back(t);
     for (std::size_t k = 0; k < 3; ++k) {
       const Index v = mesh.triangles[at(t)][k];
-      std::int32_t& local = local_[at(v)];
+      std::int32_t& local = local_of[at(v)];
       if (local < 0) {
         local = static_cast<std::int32_t>(node.size());
         node.push_back(v);
@@ -157,7 +159,7 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
       (k == 0 ? v0 : k == 1 ? v1 : v2).push_back(local);
     }
   }
-  for (const Index v : node) local_[at(v)] = -1;
+  for (const Index v : node) local_of[at(v)] = -1;
 
   const std::size_t nodes = padded(node.size()), triangles = padded(triangle.size());
   constexpr double far_away = 1e3;  // [m]: squares stay finite and no ball reaches it

@@ -92,7 +92,6 @@ class MeshCandidates {
   std::uint64_t revision_ = 0, gatherings_ = 0;
   std::vector<std::pair<double, Index>> found_;  // scratch: distance from the way, triangle
   std::vector<Index> ordered_;                   // scratch
-  std::vector<std::int32_t> local_;              // scratch: local number of a mesh vertex, or -1
 };
 
 }  // namespace abradem::contact

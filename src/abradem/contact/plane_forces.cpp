@@ -54,7 +54,8 @@ void PlaneList::rebuild(const Spheres& spheres, const MovingPlane& plane, double
   F_n.assign(sphere.size(), 0.0);
   slip.assign(sphere.size(), 0.0);
   for (std::size_t k = 0; k < sphere.size(); ++k) {
-    const auto found = std::ranges::lower_bound(before, id[k], {}, &std::pair<std::int32_t, std::size_t>::first);
+    const auto found =
+        std::ranges::lower_bound(before, id[k], {}, &std::pair<std::int32_t, std::size_t>::first);
     if (found == before.end() || found->first != id[k]) continue;
     touching[k] = 1;
     spring[k] = old[found->second];

@@ -158,7 +158,8 @@ ABRADEM_INLINE void scatter(const Work& w, PairChunk& p, std::size_t count) noex
   }
 }
 
-/// The law over the contacts gathered so far. @return largest overlap beyond kDeepest R_eff [m], or less than 0
+/// The law over the contacts gathered so far. @return largest overlap beyond kDeepest R_eff [m], or less than
+/// 0
 ABRADEM_INLINE double flush(const Work& w, PairChunk& p, std::size_t count) noexcept {
   constexpr std::size_t kLanes = 8;
   const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
@@ -170,8 +171,7 @@ ABRADEM_INLINE double flush(const Work& w, PairChunk& p, std::size_t count) noex
   if (w.table->materials > 1)
     for (std::size_t k = 0; k < padded; ++k) {
       const auto pair = at(p.pair[k]);
-      p.c.set_constants(
-          k, w.table->of(w.sphere[w.owner[pair]].material, w.sphere[w.partner[pair]].material));
+      p.c.set_constants(k, w.table->of(w.sphere[w.owner[pair]].material, w.sphere[w.partner[pair]].material));
     }
   const double deepest = meet(p, padded);
   hertz_mindlin_loop(p.c, padded, w.dt);
@@ -195,8 +195,8 @@ constexpr unsigned byte_shift(std::size_t m) noexcept {
   return static_cast<unsigned>(std::endian::native == std::endian::little ? 8 * m : 56 - 8 * m);
 }
 
-/// All pairs of one block, eight at a time. What overlaps is gathered into a chunk; full chunks go through the
-/// law. (Copies of w's pointers: stores to `touching`, which are bytes, may alias anything.)
+/// All pairs of one block, eight at a time. What overlaps is gathered into a chunk; full chunks go through
+/// the law. (Copies of w's pointers: stores to `touching`, which are bytes, may alias anything.)
 ABRADEM_DISPATCH double block_forces(const Work& w, std::int32_t first, std::int32_t last,
                                      PairChunk& p) noexcept {
   const Quad minus{-1.0, -1.0, -1.0, 1.0};
@@ -217,7 +217,8 @@ ABRADEM_DISPATCH double block_forces(const Work& w, std::int32_t first, std::int
         column[m] = d[half + m] =
             quads(sphere[owner[k + half + m]])[0] + quads(sphere[partner[k + half + m]])[0] * minus;
       transpose(column[0], column[1], column[2], column[3]);
-      const Quad g = column[0] * column[0] + column[1] * column[1] + column[2] * column[2] - column[3] * column[3];
+      const Quad g =
+          column[0] * column[0] + column[1] * column[1] + column[2] * column[2] - column[3] * column[3];
       quad_at(reinterpret_cast<double*>(gap) + half) = g;
     }
     std::uint64_t now = 0, before = 0;
@@ -272,10 +273,17 @@ bool sphere_forces(const Spheres& spheres, SphereList& list, const PairTable& ta
     PairChunk chunk;
     if (table.materials == 1)
       for (std::size_t k = 0; k < kCapacity; ++k) chunk.c.set_constants(k, table.pair[0]);
-    const Work work{spheres.row.data(),    list.owner.data(), list.partner.data(),
-                    list.touching.data(),  list.far.data(),   list.spring.data(),
-                    list.far_load.data(),  load.data(),       &table,
-                    static_cast<std::int32_t>(end), dt};
+    const Work work{spheres.row.data(),
+                    list.owner.data(),
+                    list.partner.data(),
+                    list.touching.data(),
+                    list.far.data(),
+                    list.spring.data(),
+                    list.far_load.data(),
+                    load.data(),
+                    &table,
+                    static_cast<std::int32_t>(end),
+                    dt};
     deepest[b] = block_forces(work, list.start[begin], list.start[end], chunk);
   });
   add_far_loads(list, load);

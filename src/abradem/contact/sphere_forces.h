@@ -12,7 +12,7 @@ namespace abradem::contact {
 /// `load` is overwritten. On all threads; same bits for any number of them.
 /// @return false when two overlap by more than kDeepest of their effective radius
 [[nodiscard]] bool sphere_forces(const Spheres& spheres, SphereList& list, const PairTable& table, double dt,
-                     std::vector<LoadRow>& load);
+                                 std::vector<LoadRow>& load);
 
 /// What one step of the integration met.
 struct Advance {

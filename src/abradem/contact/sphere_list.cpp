@@ -163,8 +163,8 @@ void SphereList::find_pairs(const Spheres& spheres, double skin) {
   });
 }
 
-/// A contact that stays is looked up in the row of the sphere that owned it; where the two have changed places
-/// in the order, its spring belongs to the other one and points the other way.
+/// A contact that stays is looked up in the row of the sphere that owned it; where the two have changed
+/// places in the order, its spring belongs to the other one and points the other way.
 void SphereList::carry_springs(const SphereList& before) {
   touching.assign(pairs(), 0);
   spring.assign(pairs(), {});

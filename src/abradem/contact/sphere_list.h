@@ -10,12 +10,12 @@ namespace abradem::contact {
 
 /// Pairs of spheres nearer than a skin, and what their contacts remember (Verlet list, CSR).
 ///
-/// Pair k belongs to the lower of its two spheres, `owner[k]`; the other is `partner[k]`. Rows ascend. The list
-/// holds while no sphere has moved by more than half the skin since it was made.
+/// Pair k belongs to the lower of its two spheres, `owner[k]`; the other is `partner[k]`. Rows ascend. The
+/// list holds while no sphere has moved by more than half the skin since it was made.
 ///
-/// Spheres are worked through in blocks of kBlock. What a block's contacts do to spheres of later blocks ("far"
-/// pairs) is kept in rows of its own and added afterwards in the order of pairs, so that sums have one order for
-/// any number of threads.
+/// Spheres are worked through in blocks of kBlock. What a block's contacts do to spheres of later blocks
+/// ("far" pairs) is kept in rows of its own and added afterwards in the order of pairs, so that sums have one
+/// order for any number of threads.
 class SphereList {
  public:
   static constexpr std::size_t kBlock = 1024;
@@ -33,10 +33,10 @@ class SphereList {
   std::vector<std::int32_t> owner, partner;  ///< of each pair
   std::vector<std::uint8_t> touching;        ///< of each pair, at the last step
   std::vector<SpringRow> spring;             ///< of each pair; zero where it does not touch
-  std::vector<std::int32_t> far;             ///< of each pair whose partner is in a later block: its row in far_load
-  std::vector<LoadRow> far_load;             ///< what far pairs do to their partners, partner by partner
-  std::vector<std::int32_t> far_target;      ///< spheres that far pairs act on, ascending
-  std::vector<std::int32_t> far_start;       ///< first row of far_load of each; one more than targets
+  std::vector<std::int32_t> far;  ///< of each pair whose partner is in a later block: its row in far_load
+  std::vector<LoadRow> far_load;  ///< what far pairs do to their partners, partner by partner
+  std::vector<std::int32_t> far_target;  ///< spheres that far pairs act on, ascending
+  std::vector<std::int32_t> far_start;   ///< first row of far_load of each; one more than targets
 
  private:
   void sort_along_curve(Spheres& spheres, double cell);

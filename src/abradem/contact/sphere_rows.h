@@ -25,9 +25,9 @@ struct alignas(32) SphereRow {
 
 /// What acts on one sphere, and beside it what the step's stability depends on.
 struct alignas(64) LoadRow {
-  double fx = 0.0, fy = 0.0, fz = 0.0;   ///< [N]
-  double stiffening = 0.0;               ///< sum over the contacts of 2 D_n dt + S_n dt^2: M (2 g + W) [kg]
-  double tx = 0.0, ty = 0.0, tz = 0.0;   ///< [N m]
+  double fx = 0.0, fy = 0.0, fz = 0.0;  ///< [N]
+  double stiffening = 0.0;              ///< sum over the contacts of 2 D_n dt + S_n dt^2: M (2 g + W) [kg]
+  double tx = 0.0, ty = 0.0, tz = 0.0;  ///< [N m]
   double unused = 0.0;
 
   [[nodiscard]] Vec3 force() const noexcept { return {fx, fy, fz}; }

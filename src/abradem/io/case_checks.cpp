@@ -193,8 +193,8 @@ class Checker {
     if (good(path + ".number") && good(path + ".mass") && (i.number == 0) == !i.mass)
       error(path, i.mass ? "has both a number and a mass; give one of them"
                          : "needs a number or a mass of particles to bring in");
-    const bool bounded = size.kind == SizeKind::uniform || size.kind == SizeKind::normal ||
-                         size.kind == SizeKind::lognormal;
+    const bool bounded =
+        size.kind == SizeKind::uniform || size.kind == SizeKind::normal || size.kind == SizeKind::lognormal;
     if (bounded && !(size.low <= size.high) && good(path + ".size"))
       error(path + ".size.high", "must not be below low");
     if (bounded && size.kind != SizeKind::uniform && (size.mean < size.low || size.mean > size.high) &&
@@ -204,9 +204,8 @@ class Checker {
     const double R = simulation::largest_radius(size);
     const VolumeSetup& v = i.volume;
     const Vec3 e = v.high - v.low;
-    const bool fits = v.shape == VolumeShape::box
-                          ? std::min({e.x, e.y, e.z}) >= 2.0 * R
-                          : v.radius >= R && norm(v.top - v.base) >= 2.0 * R;
+    const bool fits = v.shape == VolumeShape::box ? std::min({e.x, e.y, e.z}) >= 2.0 * R
+                                                  : v.radius >= R && norm(v.top - v.base) >= 2.0 * R;
     if (!fits)
       error(path + ".volume", fmt::format("is too small for one sphere of {:.4g} mm radius", 1e3 * R));
   }
@@ -224,9 +223,8 @@ class Checker {
       for (const InsertionSetup& i : setup_.insertions) abraders.push_back(i.material);
       for (const std::string& abrader : abraders) {
         if (!materials_.contains(abrader) || !materials_.contains(wall.material)) continue;
-        const bool known = std::ranges::any_of(setup_.wear, [&](const WearSetup& w) {
-          return w.abrader == abrader && w.worn == wall.material;
-        });
+        const bool known = std::ranges::any_of(
+            setup_.wear, [&](const WearSetup& w) { return w.abrader == abrader && w.worn == wall.material; });
         if (known || !asked.insert(abrader).second) continue;
         error(
             path + ".deformation",

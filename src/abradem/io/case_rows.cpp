@@ -463,7 +463,8 @@ const std::array kRows{
         .slot = ABRADEM_CHOICE(insertion->size.kind),
         .choices = kSizes,
         .example = "\"uniform\"",
-        .doc = "Distribution of the radius by number: one size (single), uniform, normal, lognormal, or a table in "
+        .doc = "Distribution of the radius by number: one size (single), uniform, normal, lognormal, or a "
+               "table in "
                "a file."},
     Row{.section = "insertion.*.size",
         .key = "radius",
@@ -511,7 +512,8 @@ const std::array kRows{
         .slot = ABRADEM_SLOT(insertion->size.file),
         .when = {"kind", kTableOfSizes},
         .example = "\"sizes.csv\"",
-        .doc = "CSV file with the columns radius_mm and share (of the number of spheres, any sum), relative to the "
+        .doc = "CSV file with the columns radius_mm and share (of the number of spheres, any sum), relative "
+               "to the "
                "folder of the case file."},
     Row{.section = "insertion.*.volume",
         .key = "shape",
@@ -567,7 +569,8 @@ const std::array kRows{
         .slot = ABRADEM_SLOT(insertion->volume.file),
         .when = {"shape", kFile},
         .example = "\"spheres.csv\"",
-        .doc = "CSV file with the columns x_mm, y_mm, z_mm and radius_mm, relative to the folder of the case file."},
+        .doc = "CSV file with the columns x_mm, y_mm, z_mm and radius_mm, relative to the folder of the case "
+               "file."},
 
     Row{.section = "domain",
         .key = "low",
@@ -590,7 +593,8 @@ const std::array kRows{
         .slot = ABRADEM_CHOICE(setup->domain->outside),
         .choices = kOutside,
         .example = "\"remove\"",
-        .doc = "What becomes of a particle whose centre leaves the box: it is taken out and counted (remove), or the "
+        .doc = "What becomes of a particle whose centre leaves the box: it is taken out and counted "
+               "(remove), or the "
                "run stops. Looked at whenever the list of neighbours is made anew."},
 
     Row{.section = "run",

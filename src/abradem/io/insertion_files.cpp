@@ -31,7 +31,8 @@ void read_insertion_files(Setup& setup) {
   for (InsertionSetup& i : setup.insertions) {
     if (i.volume.shape == VolumeShape::file) {
       const CsvTable table = read_csv(i.volume.file);
-      const auto x = checked(table, i.volume.file, "x_mm", false), y = checked(table, i.volume.file, "y_mm", false),
+      const auto x = checked(table, i.volume.file, "x_mm", false),
+                 y = checked(table, i.volume.file, "y_mm", false),
                  z = checked(table, i.volume.file, "z_mm", false),
                  R = checked(table, i.volume.file, "radius_mm", true);
       i.placed.clear();

@@ -53,9 +53,9 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder)
   if (run.setup().output.frames != simulation::Frames::none) made(folder_ / "vtk");
   if (!run.setup().insertions.empty()) {
     bulk_.emplace(folder_ / "tables" / "particles.csv",
-                  std::vector<std::string>{"time_s", "particles", "mass_kg", "inserted", "removed", "removed_mass_kg",
-                                           "contacts", "wall_contacts", "kinetic_energy_J", "elastic_energy_J",
-                                           "fastest_m_per_s"});
+                  std::vector<std::string>{"time_s", "particles", "mass_kg", "inserted", "removed",
+                                           "removed_mass_kg", "contacts", "wall_contacts", "kinetic_energy_J",
+                                           "elastic_energy_J", "fastest_m_per_s"});
     write_bulk();
   }
   worn_wall_ = analysis::worn_wall(run.walls());

@@ -14,8 +14,8 @@ namespace {
 
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
-constexpr double kSkin = 0.2;      // of the mean radius
-constexpr double kFastest = 0.1;   // of the radius in one step: a faster one may pass through a wall
+constexpr double kSkin = 0.2;     // of the mean radius
+constexpr double kFastest = 0.1;  // of the radius in one step: a faster one may pass through a wall
 
 bool outside(const DomainSetup& d, const Vec3& p) noexcept {
   return !(p.x >= d.low.x && p.y >= d.low.y && p.z >= d.low.z && p.x <= d.high.x && p.y <= d.high.y &&
@@ -47,7 +47,8 @@ Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
     const auto material = std::ranges::find(setup.materials, insertion.material, &MaterialSetup::name);
     const auto m = static_cast<std::size_t>(material - setup.materials.begin());
     constexpr std::uint64_t kStream = 1000;  // of the first insertion: far from those of the meshes
-    inserters_.emplace_back(insertion, static_cast<int>(m), materials[m].density, setup.run.seed, kStream + k);
+    inserters_.emplace_back(insertion, static_cast<int>(m), materials[m].density, setup.run.seed,
+                            kStream + k);
   }
   take_in(0.0);
 }
@@ -69,18 +70,19 @@ void Bulk::take_out() {
     const contact::SphereRow& s = spheres_.row[i];
     if (spheres_.id[i] < named_ || !outside(*domain_, s.position())) continue;
     if (domain_->outside == Outside::stop)
-      throw SimulationError(fmt::format(
-          "particle {} has left the domain at ({:.6g}, {:.6g}, {:.6g}) m with {:.4g} m/s. Enlarge the [domain], "
-          "close the walls, or set outside = \"remove\"",
-          spheres_.id[i], s.x, s.y, s.z, norm(s.velocity())));
+      throw SimulationError(
+          fmt::format("particle {} has left the domain at ({:.6g}, {:.6g}, {:.6g}) m with {:.4g} m/s. "
+                      "Enlarge the [domain], "
+                      "close the walls, or set outside = \"remove\"",
+                      spheres_.id[i], s.x, s.y, s.z, norm(s.velocity())));
     spheres_.id[i] = -1;
     ++removed_;
     removed_mass_ += 1.0 / s.inverse_mass;
   }
 }
 
-/// Copies of the named particles as they are now. What they moved besides the engine's own idea of it (guides,
-/// loads, a hand) counts as travelled.
+/// Copies of the named particles as they are now. What they moved besides the engine's own idea of it
+/// (guides, loads, a hand) counts as travelled.
 void Bulk::fetch_named(const Particles& named) {
   double furthest = 0.0;
   for (std::size_t p = 0; p < place_of_named_.size(); ++p) {
@@ -141,8 +143,8 @@ void Bulk::check(const Surroundings& around, std::uint64_t step) const {
     if (!is_finite(s.position()) || !is_finite(s.velocity()))
       fail(i, "its position or speed is no longer a number", around, step);
     if (const double way = norm(s.velocity()) * around.dt; way > kFastest * s.radius)
-      fail(i, fmt::format("it moves {:.4g} mm in one step, more than a tenth of its radius", 1e3 * way), around,
-           step);
+      fail(i, fmt::format("it moves {:.4g} mm in one step, more than a tenth of its radius", 1e3 * way),
+           around, step);
   }
   if (sound_) return;  // only a copy of a named one: it is looked at with its own kind
   for (std::size_t k = 0; k < list_.pairs(); ++k) {
@@ -165,12 +167,14 @@ void Bulk::check(const Surroundings& around, std::uint64_t step) const {
   fail(0, "it or another one overlaps a wall by more than a tenth of its radius", around, step);
 }
 
-void Bulk::fail(std::size_t i, const std::string& what, const Surroundings& around, std::uint64_t step) const {
+void Bulk::fail(std::size_t i, const std::string& what, const Surroundings& around,
+                std::uint64_t step) const {
   const contact::SphereRow& s = spheres_.row[i];
-  throw SimulationError(fmt::format(
-      "particle {} at ({:.4g}, {:.4g}, {:.4g}) mm, step {}, {:.6g} s: {}. Shorten the time step, or check the "
-      "stiffness, the speeds and the starting positions",
-      spheres_.id[i], 1e3 * s.x, 1e3 * s.y, 1e3 * s.z, step, around.time, what));
+  throw SimulationError(
+      fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) mm, step {}, {:.6g} s: {}. Shorten the time step, "
+                  "or check the "
+                  "stiffness, the speeds and the starting positions",
+                  spheres_.id[i], 1e3 * s.x, 1e3 * s.y, 1e3 * s.z, step, around.time, what));
 }
 
 BulkState Bulk::state(const std::vector<material::PairProperties>& properties) const {
@@ -211,8 +215,7 @@ void Bulk::add_to(core::StateHash& hash) const {
     hash.add(s.spin());
   }
   for (std::size_t k = 0; k < list_.pairs(); ++k)
-    if (list_.touching[k] != 0)
-      hash.add(Vec3{list_.spring[k].x, list_.spring[k].y, list_.spring[k].z});
+    if (list_.touching[k] != 0) hash.add(Vec3{list_.spring[k].x, list_.spring[k].y, list_.spring[k].z});
   for (const contact::PlaneList& plane : walls_.planes())
     for (const contact::SpringRow& s : plane.spring) hash.add(Vec3{s.x, s.y, s.z});
   for (const BulkWalls::NearMesh& m : walls_.meshes()) m.contact->add_to(hash);

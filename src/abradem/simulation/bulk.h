@@ -23,8 +23,8 @@ struct BulkState {
 };
 
 /// Spheres among themselves: all contacts between spheres of a case, and everything about those that come in
-/// numbers. Named particles lead a double life here: `Particles` holds them, moves them and brings them to the
-/// walls; this engine sees copies of them (ids 0 … named - 1) and returns the forces of their contacts.
+/// numbers. Named particles lead a double life here: `Particles` holds them, moves them and brings them to
+/// the walls; this engine sees copies of them (ids 0 … named - 1) and returns the forces of their contacts.
 ///
 /// The methods are chapters of the simulation's step (docs/architecture.md#particles-in-numbers).
 class Bulk {

@@ -12,9 +12,9 @@
 
 namespace abradem::simulation {
 
-/// Contacts of particles in numbers with the walls. A wall is searched only by those near it, which are listed
-/// whenever the list of neighbours is made anew; a sphere beside a mesh then has a SphereWall of its own, with
-/// the wall's contact rule, memory and wear, and one beside a plane a row of a PlaneList.
+/// Contacts of particles in numbers with the walls. A wall is searched only by those near it, which are
+/// listed whenever the list of neighbours is made anew; a sphere beside a mesh then has a SphereWall of its
+/// own, with the wall's contact rule, memory and wear, and one beside a plane a row of a PlaneList.
 class BulkWalls {
  public:
   /// One sphere beside one mesh.
@@ -52,9 +52,9 @@ class BulkWalls {
                    std::vector<double>& paper);
 
   std::vector<contact::PlaneList> planes_;
-  std::vector<NearGrid> grids_;  // of each mesh wall
-  std::vector<NearMesh> meshes_;  // by sphere, then wall
-  std::vector<double> odometer_;  // of each wall's wear at the rebuild [m]
+  std::vector<NearGrid> grids_;                    // of each mesh wall
+  std::vector<NearMesh> meshes_;                   // by sphere, then wall
+  std::vector<double> odometer_;                   // of each wall's wear at the rebuild [m]
   std::vector<contact::PairConstants> constants_;  // walls x materials
   double fastest_wall_ = 0.0;
 };

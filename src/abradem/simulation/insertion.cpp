@@ -62,7 +62,8 @@ class Occupancy {
     return static_cast<std::int64_t>(std::floor(x / cell_));
   }
   [[nodiscard]] static std::int64_t key(std::int64_t x, std::int64_t y, std::int64_t z) noexcept {
-    constexpr std::int64_t mask = (1 << 21) - 1;  // cells beyond a million from the origin share keys: harmless
+    constexpr std::int64_t mask =
+        (1 << 21) - 1;  // cells beyond a million from the origin share keys: harmless
     return ((z & mask) << 42) | ((y & mask) << 21) | (x & mask);
   }
   double cell_, largest_;
@@ -217,10 +218,12 @@ std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Sph
   }
   if (waiting_ && !setup_.mass_rate)
     throw InputError(fmt::format(
-        "insertion '{}': its volume is full after {} of the {} particles to be placed there ({:.3g} kg, {:.1f} % of "
+        "insertion '{}': its volume is full after {} of the {} particles to be placed there ({:.3g} kg, "
+        "{:.1f} % of "
         "the volume; at random, without overlaps, about 30 % can be reached). Enlarge the volume, lower "
         "the number, or insert at a mass_rate",
-        setup_.name, inserted_, setup_.number > 0 ? fmt::format("{}", setup_.number) : fmt::format("{:.4g} kg of", *setup_.mass),
+        setup_.name, inserted_,
+        setup_.number > 0 ? fmt::format("{}", setup_.number) : fmt::format("{:.4g} kg of", *setup_.mass),
         mass_, 100.0 * mass_ / density_ / capacity(setup_.volume)));
   // At a rate: again when a sphere of the largest size may have cleared its place.
   const double pause = setup_.mass_rate ? std::max(mass_of(radius_, density_) / *setup_.mass_rate, 1e-3)

@@ -17,8 +17,9 @@ namespace abradem::simulation {
 /// Of an insertion, given places included [m].
 [[nodiscard]] double smallest_radius(const InsertionSetup& insertion) noexcept;
 
-/// Brings the spheres of one [insertion] into the run: at once, or at a rate. Each is tried at random places of
-/// the volume until it overlaps no other; one that finds none waits, so that the size distribution is kept.
+/// Brings the spheres of one [insertion] into the run: at once, or at a rate. Each is tried at random places
+/// of the volume until it overlaps no other; one that finds none waits, so that the size distribution is
+/// kept.
 class Inserter {
  public:
   /// @param density of the material [kg/m^3]   @param stream number of the random stream

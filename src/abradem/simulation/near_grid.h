@@ -9,8 +9,8 @@
 
 namespace abradem::simulation {
 
-/// Where in a mesh's own frame a sphere may be near it: a bitmap that turns away almost all who are not, at the
-/// price of one look-up.
+/// Where in a mesh's own frame a sphere may be near it: a bitmap that turns away almost all who are not, at
+/// the price of one look-up.
 class NearGrid {
  public:
   /// Makes the bitmap for spheres of at most this reach, unless the present one still holds.
@@ -22,7 +22,8 @@ class NearGrid {
       return false;
     const auto i = static_cast<std::size_t>(fx), j = static_cast<std::size_t>(fy),
                k = static_cast<std::size_t>(fz);
-    return near_[(k * static_cast<std::size_t>(count_[1]) + j) * static_cast<std::size_t>(count_[0]) + i] != 0;
+    return near_[(k * static_cast<std::size_t>(count_[1]) + j) * static_cast<std::size_t>(count_[0]) + i] !=
+           0;
   }
 
  private:

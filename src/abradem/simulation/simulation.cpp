@@ -105,10 +105,10 @@ void Simulation::refuse_missing_pairs(const std::vector<char>& given) const {
       const auto b = static_cast<std::size_t>(index_of(setup_.materials, bodies[j].material, "material"));
       if (given[a * materials_.size() + b] != 0) continue;
       const std::string pair = fmt::format("[contact.\"{}/{}\"]", bodies[i].material, bodies[j].material);
-      throw InputError(i == j ? fmt::format("the particles of {} can meet one another, but no {} says how",
-                                            bodies[i].title, pair)
-                              : fmt::format("{} can meet {}, but no {} says how", bodies[i].title,
-                                            bodies[j].title, pair));
+      throw InputError(
+          i == j ? fmt::format("the particles of {} can meet one another, but no {} says how",
+                               bodies[i].title, pair)
+                 : fmt::format("{} can meet {}, but no {} says how", bodies[i].title, bodies[j].title, pair));
     }
 }
 
@@ -138,7 +138,8 @@ void Simulation::add_particles() {
   particles_.force.resize(particles_.size());
   particles_.torque.resize(particles_.size());
   stiffness_ratio_.assign(particles_.size(), 1.0);
-  if (particles_.size() > 1 || !setup_.insertions.empty()) bulk_.emplace(setup_, materials_, pairs_, particles_);
+  if (particles_.size() > 1 || !setup_.insertions.empty())
+    bulk_.emplace(setup_, materials_, pairs_, particles_);
 }
 
 /// Sliding distance per step of `quasi_static`, as shares f of the contact's half-width a [m].
@@ -196,7 +197,8 @@ void Simulation::choose_time_step() {
           shortest, material::rayleigh_time(materials_[static_cast<std::size_t>(particles_.material[p])],
                                             particles_.radius[p]));
     for (const InsertionSetup& i : setup_.insertions) {
-      const auto& m = materials_[static_cast<std::size_t>(index_of(setup_.materials, i.material, "material"))];
+      const auto& m =
+          materials_[static_cast<std::size_t>(index_of(setup_.materials, i.material, "material"))];
       shortest = std::min(shortest, material::rayleigh_time(m, smallest_radius(i)));
     }
     wanted *= shortest;

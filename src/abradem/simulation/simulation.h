@@ -153,8 +153,8 @@ class Simulation {
   std::vector<Wall> walls_;
   std::vector<geometry::Pose> poses_;
   std::vector<SphereWall> sphere_walls_;  // particle-major
-  std::optional<Bulk> bulk_;  // where spheres can meet spheres, or come in numbers
-  std::vector<double> law_, paper_;  // per wall [m^3]
+  std::optional<Bulk> bulk_;              // where spheres can meet spheres, or come in numbers
+  std::vector<double> law_, paper_;       // per wall [m^3]
   double dt_ = 0.0, period_ = 0.0, end_ = 0.0, acceleration_ = 1.0;
   std::uint64_t steps_ = 0, total_steps_ = 0, steps_per_output_ = 1;
   std::function<void(const Simulation&)> observer_;

@@ -138,13 +138,15 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
   return total;
 }
 
-/// Where the Hertz footprint lies wholly inside one triangle, its pressure is symmetric about the nearest point, so
-/// that its moments with the (linear) shape functions are these functions there: no integral is needed.
+/// Where the Hertz footprint lies wholly inside one triangle, its pressure is symmetric about the nearest
+/// point, so that its moments with the (linear) shape functions are these functions there: no integral is
+/// needed.
 bool SphereWall::deposit_inside(Wall& wall, const Touch& touch, double dV, double R,
                                 const contact::PairProperties& pair) {
   const auto t = static_cast<std::size_t>(touch.nearest);
   const double a = contact::contact_radius(R, contact::hertz_overlap(pair, R, touch.force.F_n));
-  const Vec3 p0 = candidates_.node_position(at(candidates_.v0[t])), p1 = candidates_.node_position(at(candidates_.v1[t])),
+  const Vec3 p0 = candidates_.node_position(at(candidates_.v0[t])),
+             p1 = candidates_.node_position(at(candidates_.v1[t])),
              p2 = candidates_.node_position(at(candidates_.v2[t]));
   const Vec3 area = cross(p1 - p0, p2 - p0);
   const double area2 = norm2(area);
@@ -152,7 +154,8 @@ bool SphereWall::deposit_inside(Wall& wall, const Touch& touch, double dV, doubl
   const double b0 = dot(area, cross(p2 - p1, touch.point - p1)) / area2,
                b1 = dot(area, cross(p0 - p2, touch.point - p2)) / area2, b2 = 1.0 - b0 - b1;
   const double size = std::sqrt(area2);
-  if (b0 * size < a * norm(p2 - p1) || b1 * size < a * norm(p0 - p2) || b2 * size < a * norm(p1 - p0)) return false;
+  if (b0 * size < a * norm(p2 - p1) || b1 * size < a * norm(p0 - p2) || b2 * size < a * norm(p1 - p0))
+    return false;
   wall.surface().deposit(candidates_.triangle[t], dV, dV * b0, dV * b1, dV * b2);
   return true;
 }
@@ -180,7 +183,8 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
   }
 
   const bool resolved = wall.setup().contact == ContactRule::resolved;
-  if (resolved && !paper && wall.setup().footprint == Footprint::hertz && deposit_inside(wall, touch, dV, R, pair))
+  if (resolved && !paper && wall.setup().footprint == Footprint::hertz &&
+      deposit_inside(wall, touch, dV, R, pair))
     return;
   std::span<const char> mask;
   const std::span<const int> parts = resolved ? points_.sets() : patches_.clusters();

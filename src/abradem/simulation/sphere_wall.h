@@ -107,7 +107,8 @@ class SphereWall {
     bool used = false;
   };
   void deposit_one(Wall& wall, const Touch& touch, double dV, double R, const contact::PairProperties& pair);
-  bool deposit_inside(Wall& wall, const Touch& touch, double dV, double R, const contact::PairProperties& pair);
+  bool deposit_inside(Wall& wall, const Touch& touch, double dV, double R,
+                      const contact::PairProperties& pair);
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
   contact::TangentialHistory& recall(const Touch& touch, ContactRule rule);
   void add_centroid_motion(const Wall& wall);

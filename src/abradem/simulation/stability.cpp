@@ -55,7 +55,8 @@ std::vector<StabilityLimit> Simulation::limits() const {
     }
   }
   for (const InsertionSetup& i : setup_.insertions) {
-    const auto m = std::ranges::find(setup_.materials, i.material, &MaterialSetup::name) - setup_.materials.begin();
+    const auto m =
+        std::ranges::find(setup_.materials, i.material, &MaterialSetup::name) - setup_.materials.begin();
     rayleigh = std::max(
         rayleigh, dt_ / material::rayleigh_time(materials_[static_cast<std::size_t>(m)], smallest_radius(i)));
   }

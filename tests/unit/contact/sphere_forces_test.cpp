@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spheres in numbers against the slow and clear way: all pairs, one after another, by the laws of hertz_mindlin.h.
+// Spheres in numbers against the slow and clear way: all pairs, one after another, by the laws of
+// hertz_mindlin.h.
 #include "abradem/contact/sphere_forces.h"
 
 #include <gtest/gtest.h>
@@ -88,8 +89,9 @@ struct AllPairs {
         const auto& p = properties[static_cast<std::size_t>(2.0 * i.material + j.material)];
         const double R_eff = i.radius * j.radius / reach, m_eff = 1.0 / (i.inverse_mass + j.inverse_mass);
         const Vec3 v = i.velocity() - j.velocity() - cross(i.radius * i.spin() + j.radius * j.spin(), n);
-        const ContactForce f = hertz_mindlin(
-            p, {n, hertz_force(p, R_eff, overlap), contact_radius(R_eff, overlap), m_eff, v}, kDt, springs[key]);
+        const ContactForce f =
+            hertz_mindlin(p, {n, hertz_force(p, R_eff, overlap), contact_radius(R_eff, overlap), m_eff, v},
+                          kDt, springs[key]);
         const auto inertia = [](const SphereRow& s) { return 0.4 * s.radius * s.radius / s.inverse_mass; };
         const double I = inertia(i) * inertia(j) / (inertia(i) + inertia(j));
         const Vec3 rolling = rolling_torque(p, R_eff, f.F_n, i.spin() - j.spin(), I, kDt);
@@ -189,7 +191,8 @@ TEST(SphereList, HoldsThePairsWithinTheSkinAndNoOthers) {
       const SphereRow &a = spheres.row[i], &b = spheres.row[j];
       if (norm(a.position() - b.position()) >= a.radius + b.radius + kSkin) continue;
       ++near;
-      EXPECT_TRUE(listed.contains({std::min(spheres.id[i], spheres.id[j]), std::max(spheres.id[i], spheres.id[j])}));
+      EXPECT_TRUE(
+          listed.contains({std::min(spheres.id[i], spheres.id[j]), std::max(spheres.id[i], spheres.id[j])}));
     }
   EXPECT_EQ(near, listed.size());
 }
@@ -218,7 +221,8 @@ TEST(SphereList, TakesOutThoseThatAreGoneAndKeepsTheOthersSprings) {
   auto before = springs();
   for (std::size_t i = 0; i < spheres.size(); ++i)
     if (spheres.id[i] % 10 == 0) spheres.id[i] = -1;
-  std::erase_if(before, [](const auto& pair) { return pair.first.first % 10 == 0 || pair.first.second % 10 == 0; });
+  std::erase_if(before,
+                [](const auto& pair) { return pair.first.first % 10 == 0 || pair.first.second % 10 == 0; });
   list.rebuild(spheres, kSkin);
   EXPECT_EQ(spheres.size(), 270u);
   EXPECT_EQ(springs(), before);
