@@ -18,6 +18,9 @@ if(ABRADEM_SANITIZE)
   # Function multiversioning resolves through ifunc before the sanitizers are ready.
   target_compile_definitions(abradem_options INTERFACE ABRADEM_NO_DISPATCH)
 endif()
+if(ABRADEM_BUILD_FUZZ)  # coverage for libFuzzer in everything; its main() only in the fuzzers
+  target_compile_options(abradem_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 find_program(ABRADEM_CCACHE ccache)
 if(ABRADEM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${ABRADEM_CCACHE})

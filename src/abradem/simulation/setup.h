@@ -135,7 +135,7 @@ enum class Frames { all, ends, none };
 struct OutputSetup {
   Duration every{1.0, true};  ///< frames and table rows
   Frames frames = Frames::all;
-  int contours = 360;  ///< sections of the worn surface per output
+  int contours = 360;               ///< sections of the worn surface per output
   double checkpoint_every = 600.0;  ///< wall-clock time between checkpoints [s]; 0: none on the way
   bool operator==(const OutputSetup&) const = default;
 };

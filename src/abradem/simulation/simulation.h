@@ -36,7 +36,8 @@ struct Ledger {
 
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
-    archive("law", self.law)("deposited", self.deposited)("swept", self.swept)("paper", self.paper)("residual", self.residual)("kappa", self.kappa);
+    archive("law", self.law)("deposited", self.deposited)("swept", self.swept)("paper", self.paper)(
+        "residual", self.residual)("kappa", self.kappa);
   }
 };
 
@@ -133,7 +134,7 @@ class Simulation {
   struct SpherePair {
     std::size_t i, j;
     contact::TangentialHistory history;
-    bool touching = false;
+    double overlap = 0.0;  // of this step [m]
 
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
@@ -164,7 +165,9 @@ class Simulation {
   void find_equilibrium(std::size_t p);
   [[nodiscard]] double slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept;
   void book_elements();
+  void limit_energies();
   void check_state() const;
+  void check_ledger();
   void watch_stability();
 
   Setup setup_;
@@ -182,6 +185,7 @@ class Simulation {
   std::function<void(const Simulation&)> observer_;
   std::vector<double> stiffness_ratio_;  // quasi_static: of each particle's contact, to Hertz's
   double worst_damping_ = 0.0;           // largest 2 g + W met
+  std::vector<double> energy_limit_;     // kinetic, of each particle: none that moves rightly has it [J]
 };
 
 /// Resolves a duration to seconds. @throws InputError when it is in revolutions and nothing turns
