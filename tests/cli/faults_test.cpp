@@ -117,7 +117,7 @@ TEST(Fault, NoTerminalNoLocaleNoStreamsIsNoMatter) {
 TEST(Fault, AMemoryLimitIsSaidInWordsAndLeavesNoFolder) {
   const ScratchFolder scratch;
   const Outcome outcome =
-      run_program(kRun + " --set run.end='0.02 rev' --set wall.disc.mesh.size='0.05 mm' -o result",
+      run_program(kRun + " --set run.end='0.02 rev' --set wall.disc.mesh.size='0.03 mm' -o result",
                   scratch.path(), "export OMP_NUM_THREADS=1; ulimit -v 130000");
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   EXPECT_NE(outcome.err.find("out of memory; make the mesh coarser"), std::string::npos) << outcome.err;

@@ -88,6 +88,8 @@ TEST(Watchdog, TooDeepAnOverlapIsNamedWithTheTriangle) {
     simulation::Setup s = shot(20.0);
     s.walls[0].contact = rule;
     s.run.time_step = {2e-6, false};
+    // The many springs of per_triangle stop any ball in time: it starts too deep.
+    if (rule == ContactRule::per_triangle) s.particles[0].position.z = 0.85 * s.particles[0].radius;
     Simulation run(s);
     const std::string message = stopped(run, 200);
     EXPECT_TRUE(says(message, {"particle 'pin'", "overlap with wall 'disc', triangle ",
