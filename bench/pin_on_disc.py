@@ -21,6 +21,11 @@ CASES = {
     "large": {"run.end": "1 rev", "wall.disc.mesh.inner": "2 mm", "wall.disc.mesh.outer": "57.5 mm"},
     "quasi_static": {"run.end": "12 rev", "run.method": "quasi_static"},
 }
+# What the median shall reach: (name of the goal, does (steps, steps/s) reach it?).
+GOALS = {
+    "small": ("500,000 steps/s", lambda steps, speed: speed >= 500e3),
+    "quasi_static": ("stepping in 0.2 s", lambda steps, speed: steps / speed <= 0.2),
+}
 
 
 def run(options, case, folder):
@@ -66,6 +71,9 @@ def main():
             whole = statistics.median(manifest["wall_seconds"] for manifest, _ in runs)
             print(f"{case:<14}{runs[0][1]:>11}{steps:>9}{medians[case]:>11.0f}{min(speeds):>11.0f}"
                   f"{max(speeds):>11.0f}{steps / medians[case]:>12.3f}{whole:>9.3f}  {hashes.pop()}", flush=True)
+            if case in GOALS and not options.rev:
+                goal, reached = GOALS[case]
+                print(f"{'':<14}goal: {goal}: {'reached' if reached(steps, medians[case]) else 'missed'}", flush=True)
     if "small" in medians and "large" in medians:
         print(f"large / small: {medians['large'] / medians['small']:.3f} of the speed")
 

@@ -274,15 +274,21 @@ function offerTables() {
   }
 }
 
-// Draws what `prepare` describes with figure(), and again when theme, width or medium change.
-async function start(prepare) {
+// Draws what each `prepare` describes with figure(), and again when theme, width or medium change. A page may have
+// several scripts that call this; it begins when the last of them has been read.
+const preparations = [];
+function start(prepare) {
+  if (preparations.push(prepare) === 1) queueMicrotask(begin);
+}
+
+async function begin() {
   try {
     if (typeof DecompressionStream === 'undefined') throw new Error('this browser is too old to unpack the figures (it needs DecompressionStream, 2023 or newer)');
     offerTables();
     const code = document.createElement('script');
     code.textContent = await inflateText('charts', 'gzip') + '\nwindow.Plotly = Plotly;';
     document.head.append(code);
-    await prepare();
+    for (const prepare of preparations) await prepare();
     await queue(drawInView);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', renderAll);
     matchMedia('(max-width: 619px)').addEventListener('change', renderAll);

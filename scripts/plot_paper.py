@@ -258,6 +258,8 @@ def log_ticks(axis, low, high):
     axis.set_major_locator(ticker.LogLocator(subs=steps))
     if decades < 7 and 1e-3 <= low and high < 1e5:
         axis.set_major_formatter(ticker.FuncFormatter(lambda v, _: f"{v:.3g}" if v < 1000 else f"{v:.0f}"))
+    elif decades >= 2.2:
+        axis.set_major_formatter(ticker.FuncFormatter(lambda v, _: power(round(math.log10(v))) if v > 0 else ""))
     if decades < 2.2:
         axis.set_minor_formatter(ticker.NullFormatter())
 
@@ -337,7 +339,9 @@ def draw(figure, width):
         named, mappable = draw_panel(axes, panel, figure, 0.8 * cell)
         for name, handle in named.items():
             legend.setdefault(name, handle)
-        if mappable:
+        # A ring in 3D leaves little room beside it: one scale is enough where another panel has it.
+        shown = any(s["kind"] == "heat" and s["z_title"] == mappable[1] for p in panels for s in p["series"]) if mappable else False
+        if mappable and not (solid[k] and shown):
             page.colorbar(mappable[0], ax=axes, label=mappable[1], shrink=0.8 if solid[k] else 1.0, pad=0.1 if solid[k] else 0.02)
     top = 0.0
     if legend:

@@ -163,6 +163,21 @@ TEST(WholeRun, WritesTheFramesThatAreAskedFor) {
             read_file(scratch.path() / "all" / "tables" / "revolutions.csv"));
 }
 
+TEST(WholeRun, WarnsOfAGrooveOfFewTriangles) {
+  const ScratchFolder scratch;
+  const auto groove_of = [&](const std::string& size) {
+    return run_program("run " + kExample + " --set wall.disc.mesh.size='" + size +
+                           "' --set run.method=quasi_static --set run.end='2 rev' --set output.every='2 rev'"
+                           " --set output.contours=36 --set output.frames=none --no-report --force -o result",
+                       scratch.path());
+  };
+  const Outcome coarse = groove_of("0.25 mm");
+  EXPECT_EQ(coarse.exit_code, 0);
+  EXPECT_TRUE(contains(coarse.err, "triangles wide, fewer than 5"));
+  EXPECT_EQ(manifest(scratch.path() / "result")["warnings"].size(), 1u);
+  EXPECT_FALSE(contains(groove_of("0.1 mm").err, "triangles wide"));
+}
+
 TEST(WholeRun, JsonIsAllThatReachesStdout) {
   const ScratchFolder scratch;
   const Outcome outcome = run_program(kRun + " -o result --json", scratch.path());

@@ -337,5 +337,17 @@ TEST(Sweep, AFullDiskEndsItWithFiveAndRoomLetsItGoOn) {
   EXPECT_EQ(manifest(scratch.path() / "result")["completed"], 6);
 }
 
+TEST(Sweep, OverSeedsSaysWhatTheySettle) {
+  const ScratchFolder folder;
+  const Outcome done = run_program("sweep " + kCase + kShort +
+                                       " --set wall.disc.mesh.size='0.4 mm' --vary "
+                                       "run.seed=1,2,3 --quiet -o s",
+                                   folder.path());
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(contains(read_file(folder.path() / "s/report.html"), "What the seed of the mesh decides"));
+  EXPECT_EQ(lines(read_file(folder.path() / "s/tables/seed-rule.csv")), 4U);
+  EXPECT_EQ(lines(read_file(folder.path() / "s/tables/seed-sensitivity.csv")), 17U);
+}
+
 }  // namespace
 }  // namespace abradem::test

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""check_plots.py SCRIPT FOLDER: runs plot_paper.py on FOLDER/page and on a run's folder; fails, saying why."""
+"""check_plots.py SCRIPT FOLDER: runs plot_paper.py on FOLDER/page, FOLDER/study and on a run's folder; fails, saying why."""
 import pathlib
 import re
 import struct
@@ -43,6 +43,14 @@ check("Figure 1 (mesh_size). Depth and width against mesh size. Mean over" in ca
 before = (page / "figures" / "forces.pdf").read_bytes()
 plot(page, "--only", "forces")
 check((page / "figures" / "forces.pdf").read_bytes() == before, "forces.pdf differs when it is drawn again")
+
+# Of the published study the widest, the tallest, one over many decades, and the views in 3D.
+study = folder / "study"
+widths = {"table3-p-values": 175, "fig14-contours-paper": 175, "fig15-volumes": 175, "fig17-wear-profile": 85}
+done = plot(study, "--formats", "png", "--only", *widths)
+check(done.returncode == 0 and "4 figures" in done.stdout, f"study: {done.returncode}, {done.stdout}{done.stderr}")
+for name, width in widths.items():
+    check(abs(width_mm(study / "figures" / f"{name}.png") - width) < 0.2, f"{name}.png is not {width} mm wide")
 
 run = folder / "run"
 subprocess.run([sys.executable, pathlib.Path(__file__).parent / "make_run.py", run, "--revolutions", "3", "--size", "1"], check=True)

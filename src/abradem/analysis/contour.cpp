@@ -309,6 +309,43 @@ double sunk_area(std::span<const ProfilePoint> profile) noexcept {
   return area == 0.0 ? 0.0 : area;  // no -0 in tables
 }
 
+namespace {
+
+/// Area of the polyline's part with sign * height > 0 [m^2], exact.
+double area_on(std::span<const ProfilePoint> profile, double sign) noexcept {
+  double area = 0.0;
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    const double a = sign * profile[i - 1].height, b = sign * profile[i].height;
+    const double width = profile[i].radius - profile[i - 1].radius;
+    if (a >= 0.0 && b >= 0.0)
+      area += 0.5 * (a + b) * width;
+    else if (a > 0.0 || b > 0.0)
+      area += 0.5 * std::max(a, b) * width * std::max(a, b) / (std::max(a, b) - std::min(a, b));
+  }
+  return area;
+}
+
+}  // namespace
+
+RidgeSummary ridge_summary(std::span<const Contour> contours) noexcept {
+  RidgeSummary sum;
+  double squares = 0.0, count = 0.0;
+  for (const Contour& c : contours) {
+    if (c.profile.empty()) continue;
+    double highest = 0.0;
+    for (const ProfilePoint& p : c.profile) highest = std::max(highest, p.height);
+    sum.height_mean += highest;
+    squares += highest * highest;
+    sum.ridge_area += area_on(c.profile, 1.0);
+    sum.groove_area += area_on(c.profile, -1.0);
+    count += 1.0;
+  }
+  if (count == 0.0) return sum;
+  for (double* value : {&sum.height_mean, &sum.ridge_area, &sum.groove_area}) *value /= count;
+  sum.height_sd = std::sqrt(std::max(0.0, squares / count - sum.height_mean * sum.height_mean));
+  return sum;
+}
+
 double opening(std::span<const ProfilePoint> profile, double level) noexcept {
   const auto below = [level](const ProfilePoint& p) { return p.height < -level; };
   const auto crossing_of = [level](const ProfilePoint& above, const ProfilePoint& under) {

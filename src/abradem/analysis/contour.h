@@ -108,6 +108,15 @@ void measure(Contour& contour) noexcept;
 /// deeper than level. A profile that ends below the level counts to its end.   @param level [m], >= 0
 [[nodiscard]] double opening(std::span<const ProfilePoint> profile, double level) noexcept;
 
+/// What stands above the first surface, and what lies below it.
+struct RidgeSummary {
+  double height_mean = 0.0, height_sd = 0.0;  ///< of the highest point of each section [m]
+  double ridge_area = 0.0;                    ///< mean area above the first surface [m^2]
+  double groove_area = 0.0;                   ///< mean area below it [m^2]
+};
+/// Over sections that have their profiles; others are left out.
+[[nodiscard]] RidgeSummary ridge_summary(std::span<const Contour> contours) noexcept;
+
 /// The level of worn_width [m]: max(1 % of the section's depth, 0.5 um).
 [[nodiscard]] double width_level(double depth) noexcept;
 /// Width [m] as a profilometer would give it: opening at width_level of the section's own depth.

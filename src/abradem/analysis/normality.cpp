@@ -52,14 +52,28 @@ struct Bins {
   std::vector<double> observed, expected;
 };
 
-Bins equiprobable_bins(std::span<const double> values, const Summary& s, int bins) {
-  const double expected = static_cast<double>(values.size()) / bins;
+/// What all numbers of bins have in common.
+struct Sample {
+  std::span<const double> values;
+  Summary summary;
+  std::vector<double>
+      u;  ///< values by the fitted normal's distribution function; for equiprobable bins alone
+};
+
+Sample sample(std::span<const double> values, Binning binning) {
+  Sample out{values, summarise(values), {}};
+  if (binning == Binning::equiprobable && scatters(out.summary))
+    for (const double x : values)
+      out.u.push_back(standard_normal_cdf((x - out.summary.mean) / out.summary.sd));
+  return out;
+}
+
+Bins equiprobable_bins(const Sample& sample, int bins) {
+  const double expected = static_cast<double>(sample.values.size()) / bins;
   Bins out{std::vector<double>(static_cast<std::size_t>(bins)),
            std::vector<double>(static_cast<std::size_t>(bins), expected)};
-  for (const double x : values) {
-    const double u = standard_normal_cdf((x - s.mean) / s.sd);
+  for (const double u : sample.u)
     ++out.observed[static_cast<std::size_t>(std::min(bins - 1, static_cast<int>(u * bins)))];
-  }
   return out;
 }
 
@@ -73,7 +87,8 @@ void pool_low_tail(Bins& bins) {
   }
 }
 
-Bins equal_width_bins(std::span<const double> values, const Summary& s, int bins) {
+Bins equal_width_bins(const Sample& sample, int bins) {
+  const auto& [values, s, u] = sample;
   const double width = (s.max - s.min) / bins;
   Bins out{std::vector<double>(static_cast<std::size_t>(bins)), {}};
   for (const double x : values)
@@ -92,6 +107,32 @@ Bins equal_width_bins(std::span<const double> values, const Summary& s, int bins
   return out;
 }
 
+ChiSquaredNormality chi_squared_of(const Sample& sample, int bins, Binning binning) {
+  ChiSquaredNormality test{.bins = bins};
+  if (!scatters(sample.summary)) return test;
+  const Bins counted =
+      binning == Binning::equiprobable ? equiprobable_bins(sample, bins) : equal_width_bins(sample, bins);
+  test.bins = static_cast<int>(counted.observed.size());
+  if (test.bins < 4) return test;
+  test.statistic = 0.0;
+  for (std::size_t j = 0; j < counted.observed.size(); ++j) {
+    const double excess = counted.observed[j] - counted.expected[j];
+    test.statistic += excess * excess / counted.expected[j];
+  }
+  test.df = test.bins - 3;
+  test.p = chi_squared_tail(test.statistic, test.df);
+  test.p_upper = chi_squared_tail(test.statistic, test.df + 2);
+  return test;
+}
+
+void check_bins(int bins) {
+  if (bins < 4)
+    throw InputError(
+        fmt::format("statistics: chi-squared test with {} bins; mean and sd are fitted, so at least 4 "
+                    "are needed",
+                    bins));
+}
+
 }  // namespace
 
 int normality_bins(std::int64_t n) noexcept {
@@ -107,27 +148,8 @@ ChiSquaredNormality chi_squared_normality(std::span<const double> values) {
 }
 
 ChiSquaredNormality chi_squared_normality(std::span<const double> values, int bins, Binning binning) {
-  if (bins < 4)
-    throw InputError(
-        fmt::format("statistics: chi-squared test with {} bins; mean and sd are fitted, so at least 4 "
-                    "are needed",
-                    bins));
-  const Summary s = summarise(values);
-  ChiSquaredNormality test{.bins = bins};
-  if (!scatters(s)) return test;
-  const Bins counted = binning == Binning::equiprobable ? equiprobable_bins(values, s, bins)
-                                                        : equal_width_bins(values, s, bins);
-  test.bins = static_cast<int>(counted.observed.size());
-  if (test.bins < 4) return test;
-  test.statistic = 0.0;
-  for (std::size_t j = 0; j < counted.observed.size(); ++j) {
-    const double excess = counted.observed[j] - counted.expected[j];
-    test.statistic += excess * excess / counted.expected[j];
-  }
-  test.df = test.bins - 3;
-  test.p = chi_squared_tail(test.statistic, test.df);
-  test.p_upper = chi_squared_tail(test.statistic, test.df + 2);
-  return test;
+  check_bins(bins);
+  return chi_squared_of(sample(values, binning), bins, binning);
 }
 
 AndersonDarling anderson_darling_normality(std::span<const double> values) {
@@ -194,7 +216,7 @@ double shapiro_wilk_p(double one_minus_W, std::size_t count) {
     const double W = std::max(0.75, 1.0 - one_minus_W);
     return 6.0 / std::numbers::pi * (std::asin(std::sqrt(W)) - std::asin(std::sqrt(0.75)));
   }
-  double y = std::log(one_minus_W), mean, sd;
+  double y = std::log(one_minus_W), mean = 0.0, sd = 1.0;
   if (count <= 11) {
     const double gamma = 0.459 * n - 2.273;
     if (y >= gamma) return 0.0;
@@ -238,10 +260,12 @@ Normality test_normality(std::span<const double> values) {
 BinSensitivity bin_sensitivity(std::span<const double> values, Binning binning, double level, int fewest,
                                int most) {
   if (most == 0) most = static_cast<int>(values.size() / static_cast<std::size_t>(kExpected));
+  check_bins(fewest);
   BinSensitivity out{.binning = binning};
+  const Sample all = sample(values, binning);
   int verdicts = 0, passing = 0;
   for (int bins = fewest; bins <= most; ++bins) {
-    const double p = chi_squared_normality(values, bins, binning).p;
+    const double p = chi_squared_of(all, bins, binning).p;
     out.bins.push_back(bins);
     out.p.push_back(p);
     if (std::isnan(p)) continue;

@@ -135,7 +135,9 @@ void describe_part(RunIn& r, std::span<const double> x, std::span<const double> 
 
 }  // namespace
 
-RunIn find_run_in(std::span<const double> x, std::span<const double> values, const RunInOptions& options) {
+RunIn find_run_in(std::span<const double> revolutions, std::span<const double> values,
+                  const RunInOptions& options) {
+  const std::span<const double> x = revolutions;
   check(x, values, options);
   RunIn r;
   const std::size_t n = x.size(), shortest = static_cast<std::size_t>(options.shortest);
@@ -155,6 +157,7 @@ RunIn find_run_in(std::span<const double> x, std::span<const double> values, con
   // A shuffle that explains the same to round-off explains as well.
   r.p = permutation_p(model, y, fit.explained * (1.0 - 1e-12), options);
   if (r.p > 1.0 - options.confidence) return r;
+  if (s.max - s.min <= options.drift_tolerance * std::abs(r.level)) return r;  // seen, and too small to count
 
   r.state = RunIn::State::not_steady;
   const auto [low, high] = bootstrap_interval(model, y, fit, options);

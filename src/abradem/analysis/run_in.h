@@ -31,7 +31,7 @@ struct RunInOptions {
 struct RunIn {
   enum class State {
     too_short,   ///< fewer than shortest + 3 values: no verdict
-    from_start,  ///< nothing distinguishes the series from a level
+    from_start,  ///< nothing distinguishes the series from a level, or all of it lies within the tolerance
     found,       ///< the series changes until K, and is steady behind it
     not_steady,  ///< the series changes, and no part at its end is shown to be steady
   };

@@ -4,19 +4,26 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <filesystem>
 
 #include "abradem/cli/commands.h"
 #include "abradem/cli/mesh_loader.h"
+#include "abradem/cli/output_folder.h"
 #include "abradem/cli/print.h"
 #include "abradem/cli/stop_signals.h"
 #include "abradem/core/error.h"
 #include "abradem/io/atomic_file.h"
 #include "abradem/io/case_file.h"
+#include "abradem/io/wear_tests.h"
 #include "abradem/report/calibration_report.h"
+#include "abradem/report/groove_calibration_report.h"
 #include "abradem/report/page.h"
+#include "abradem/report/wear_law_report.h"
 #include "abradem/study/calibration.h"
+#include "abradem/study/wear_law.h"
+#include "abradem/study/groove_calibration.h"
 
 namespace abradem::cli {
 
@@ -24,25 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kRecord = "calibration.json";  // by which a folder of an earlier calibration is known
-
-/// Refuses, before any work, a folder that the result may not be written to.
-void check_folder(const fs::path& folder, bool force) {
-  std::error_code error;
-  const fs::file_status status = fs::status(folder, error);
-  if (!fs::exists(status)) return;
-  if (!fs::is_directory(status))
-    throw InputError(fmt::format("output folder '{}' is a file; choose another with -o", folder.string()));
-  if (fs::is_empty(folder, error)) return;
-  if (!fs::exists(folder / kRecord, error))
-    throw InputError(
-        fmt::format("output folder '{}' holds files that are not of a calibration; choose another with -o",
-                    folder.string()));
-  if (!force)
-    throw InputError(
-        fmt::format("output folder '{}' already holds a calibration; add --force to replace it, or choose "
-                    "another with -o",
-                    folder.string()));
-}
 
 /// What is being done, on one changing line of a terminal; a line per part elsewhere.
 class Status {
@@ -113,6 +101,21 @@ int calibrate_case(const CalibrateArguments& arguments) {
 
   Status status(arguments.quiet);
   const StopSignals signals;
+  if (arguments.unknown == "groove") {
+    study::GrooveCalibrationOptions options;
+    options.coverage = arguments.coverage;
+    options.pair = arguments.pair;
+    options.watch = [&](const std::string& doing, double fraction) {
+      status.show(doing, fraction);
+      return !StopSignals::requested();
+    };
+    const study::GrooveCalibration result = study::calibrate_groove(setup, MeshLoader(setup), options);
+    status.clear();
+    write_results(arguments, report::groove_calibration_page(result, setup.title),
+                  report::groove_calibration_json(result));
+    if (!arguments.json) print_result(report::groove_calibration_text(result));
+    return static_cast<int>(ExitCode::ok);
+  }
   study::CalibrationOptions options;
   options.unknown =
       arguments.unknown == "revolutions" ? study::Unknown::revolutions : study::Unknown::wear_coefficient;
@@ -129,12 +132,37 @@ int calibrate_case(const CalibrateArguments& arguments) {
   return static_cast<int>(ExitCode::ok);
 }
 
+/// Many tests in a table need no case: the law is fitted to them.
+int calibrate_tests(const CalibrateArguments& arguments) {
+  const auto refuse = [](bool given, const char* option) {
+    if (given) throw InputError(fmt::format("{} belongs to a case; a table of tests has none", option));
+  };
+  refuse(!arguments.overrides.empty(), "--set");
+  refuse(!arguments.method.empty(), "--method");
+  refuse(!arguments.pair.empty(), "--pair");
+  refuse(arguments.unknown != "wear_coefficient", "--for");
+  std::vector<study::WearLawFit> fits;
+  for (const study::WearTests& tests : io::read_wear_tests(arguments.path))
+    fits.push_back(study::fit_wear_law(tests, arguments.coverage));
+  write_results(arguments, report::wear_law_page(fits, fs::path(arguments.path).filename().string()),
+                report::wear_law_json(fits));
+  if (!arguments.json) print_result(report::wear_law_text(fits));
+  return static_cast<int>(ExitCode::ok);
+}
+
+bool is_table(const std::string& path) {
+  std::string end = fs::path(path).extension().string();
+  for (char& c : end) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return end == ".csv";
+}
+
 }  // namespace
 
 int calibrate_command(const CalibrateArguments& arguments) {
   if (arguments.threads > 0) omp_set_num_threads(arguments.threads);
-  if (!arguments.output.empty()) check_folder(arguments.output, arguments.force);
-  return calibrate_case(arguments);
+  if (!arguments.output.empty())
+    check_result_folder(arguments.output, kRecord, "a calibration", arguments.force);
+  return is_table(arguments.path) ? calibrate_tests(arguments) : calibrate_case(arguments);
 }
 
 }  // namespace abradem::cli

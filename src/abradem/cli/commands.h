@@ -48,10 +48,10 @@ struct SweepArguments {
 int sweep_command(const SweepArguments& arguments);
 
 struct CalibrateArguments {
-  std::string path;    ///< case file
+  std::string path;    ///< case file, or a table of tests (.csv)
   std::string output;  ///< folder of the page; empty: none is written
   std::vector<std::string> overrides;
-  std::string unknown = "wear_coefficient";  ///< or "revolutions"
+  std::string unknown = "wear_coefficient";  ///< or "revolutions", "groove"
   std::string method;                        ///< of the trials; empty: quasi_static where it can be
   std::string pair;                          ///< "abrader/worn"; empty: the only one
   double coverage = 0.95;                    ///< of the intervals
@@ -60,6 +60,16 @@ struct CalibrateArguments {
 };
 /// Finds the wear coefficient or the number of revolutions that the measurement asks for.
 int calibrate_command(const CalibrateArguments& arguments);
+
+struct AnalyseArguments {
+  std::vector<std::string> paths;                ///< tables of profiles
+  std::string output;                            ///< folder of the page; empty: none is written
+  std::string level = "none";                    ///< none, mean or line
+  std::string shoulder, width_at, track_radius;  ///< lengths with units; empty: default, none, unknown
+  bool force = false, quiet = false, json = false;
+};
+/// Measures the grooves of measured profiles, and tests them.
+int analyse_command(const AnalyseArguments& arguments);
 
 struct CheckArguments {
   std::string path;

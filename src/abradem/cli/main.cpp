@@ -24,6 +24,7 @@ struct Arguments {
   cli::ResumeArguments resume;
   cli::SweepArguments sweep;
   cli::CalibrateArguments calibrate;
+  cli::AnalyseArguments analyse;
   cli::CheckArguments check;
   cli::NewArguments create;
   std::string report_folder;
@@ -87,14 +88,20 @@ void declare_sweep(CLI::App& app, cli::SweepArguments& a) {
 void declare_calibrate(CLI::App& app, cli::CalibrateArguments& a) {
   CLI::App* calibrate = app.add_subcommand(
       "calibrate", "Find the wear coefficient (or the revolutions) that the measurement asks for");
-  calibrate->add_option("CASE", a.path, "Case file (TOML) with [measurement]")->required();
+  calibrate
+      ->add_option(
+          "CASE|TESTS", a.path,
+          "Case file (TOML) with [measurement]; or a table (.csv) of many tests, to which a wear law is "
+          "fitted")
+      ->required();
   add_overrides(*calibrate, a.overrides);
   calibrate
       ->add_option(
           "--for", a.unknown,
-          "What is sought: wear_coefficient (default), for the case's revolutions; or revolutions, for "
-          "its wear coefficient")
-      ->check(CLI::IsMember({"wear_coefficient", "revolutions"}));
+          "What is sought: wear_coefficient (default), for the case's revolutions; revolutions, for its wear "
+          "coefficient; or groove: the coefficients of disc and pin and the removed fraction, from volume, "
+          "depth and width")
+      ->check(CLI::IsMember({"wear_coefficient", "revolutions", "groove"}));
   calibrate->add_option("--pair", a.pair, "Which coefficient, where the case has several")
       ->type_name("ABRADER/WORN");
   calibrate
@@ -111,6 +118,39 @@ void declare_calibrate(CLI::App& app, cli::CalibrateArguments& a) {
       ->check(CLI::Range(1, 1024));
   calibrate->add_flag("--quiet", a.quiet, "No progress, only warnings and errors");
   calibrate->add_flag("--json", a.json, "Print the result as JSON");
+}
+
+void declare_analyse(CLI::App& app, cli::AnalyseArguments& a) {
+  CLI::App* analyse =
+      app.add_subcommand("analyse", "Measure depth, width and area of measured profiles, and test them");
+  analyse
+      ->add_option(
+          "PROFILES", a.paths,
+          "Tables (.csv) with columns radius_mm (or x_mm) and height_mm; several sections: also revolution, "
+          "angle_deg or section; or one file per section")
+      ->required();
+  analyse
+      ->add_option(
+          "--level", a.level,
+          "What is taken away as unworn surface: none (default); mean: the mean of the shoulders; line: a "
+          "straight line through them, for a tilted baseline")
+      ->check(CLI::IsMember({"none", "mean", "line"}));
+  analyse
+      ->add_option(
+          "--shoulder", a.shoulder,
+          "Length of the unworn shoulder at either end, as in \"0.3 mm\" (default: a tenth of the section)")
+      ->type_name("LENGTH");
+  analyse->add_option("--width-at", a.width_at, "Also measure the width at this depth, as in \"2 um\"")
+      ->type_name("DEPTH");
+  analyse
+      ->add_option("--track-radius", a.track_radius,
+                   "Radius of a round track: gives the worn volume, and lengths along it")
+      ->type_name("LENGTH");
+  analyse->add_option("-o,--output", a.output, "Folder for a page with figures and tables (default: none)")
+      ->type_name("DIR");
+  analyse->add_flag("--force", a.force, "Replace an earlier analysis in that folder");
+  analyse->add_flag("--quiet", a.quiet, "No messages, only warnings and errors");
+  analyse->add_flag("--json", a.json, "Print the result as JSON");
 }
 
 void declare_resume(CLI::App& app, cli::ResumeArguments& a) {
@@ -155,6 +195,7 @@ void declare(CLI::App& app, Arguments& a) {
   declare_resume(app, a.resume);
   declare_sweep(app, a.sweep);
   declare_calibrate(app, a.calibrate);
+  declare_analyse(app, a.analyse);
 
   CLI::App* check = app.add_subcommand("check", "Say what is wrong with a case file or a mesh");
   check->add_option("CASE|MESH", a.check.path, "Case file (TOML), or mesh (.stl, .obj, .ply)")->required();
@@ -183,6 +224,7 @@ int dispatch(const CLI::App& app, const Arguments& a) {
   if (app.got_subcommand("resume")) return cli::resume_command(a.resume);
   if (app.got_subcommand("sweep")) return cli::sweep_command(a.sweep);
   if (app.got_subcommand("calibrate")) return cli::calibrate_command(a.calibrate);
+  if (app.got_subcommand("analyse")) return cli::analyse_command(a.analyse);
   if (app.got_subcommand("check")) return cli::check_command(a.check);
   if (app.got_subcommand("report")) return cli::report_command(a.report_folder);
   if (app.got_subcommand("new")) return cli::new_command(a.create);

@@ -104,6 +104,22 @@ void OutputFolder::discard() noexcept {
   created_.clear();
 }
 
+void check_result_folder(const fs::path& folder, std::string_view record, std::string_view what, bool force) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::exists(status)) return;
+  if (!fs::is_directory(status))
+    throw InputError(fmt::format("output folder '{}' is a file; choose another with -o", folder.string()));
+  if (fs::is_empty(folder, error)) return;
+  if (!fs::exists(folder / record, error))
+    throw InputError(fmt::format("output folder '{}' holds files that are not of {}; choose another with -o",
+                                 folder.string(), what));
+  if (!force)
+    throw InputError(fmt::format(
+        "output folder '{}' already holds {}; add --force to replace it, or choose another with -o",
+        folder.string(), what));
+}
+
 void write_file(const fs::path& path, std::string_view text) {
   const auto close = [](std::FILE* file) { std::fclose(file); };
   std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "wb"), close);

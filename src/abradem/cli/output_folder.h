@@ -33,6 +33,12 @@ class OutputFolder {
   bool kept_ = false;
 };
 
+/// Refuses, before any work, a folder that the results of a command may not be written to.
+/// @param record file by which an earlier result of that kind is known   @param what "a calibration"
+/// @throws InputError when it is a file, holds other things, or holds such a result and `force` is not given
+void check_result_folder(const std::filesystem::path& folder, std::string_view record, std::string_view what,
+                         bool force);
+
 /// Writes a whole file. @throws IoError
 void write_file(const std::filesystem::path& path, std::string_view text);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "abradem/analysis/wall_contours.h"
 #include "abradem/cli/checkpointing.h"
 #include "abradem/cli/mesh_loader.h"
 #include "abradem/cli/output_folder.h"
@@ -118,6 +119,20 @@ void run_steps(Simulation& run, io::RunRecorder& recorder, Checkpoints& checkpoi
   progress.finish();
 }
 
+/// What a groove of few triangles is worth, or nothing where it has enough.  docs/theory/meshes.md#how-fine
+std::string coarse_groove(const Simulation& run, const analysis::RevolutionRow& row) {
+  constexpr double kEnough = 5.0, kAdvised = 8.0;  // triangles across the groove
+  constexpr double kClear = 1e-6;                  // [m]; a shallower groove has no width yet
+  const auto wall = analysis::worn_wall(run.walls());
+  if (!wall || row.depth_mean < kClear) return {};
+  const double edge = geometry::mean_edge_length(run.walls()[*wall].surface().mesh());
+  if (row.width_mean >= kEnough * edge) return {};
+  return fmt::format(
+      "the groove is {:.1f} triangles wide, fewer than {:g}: its depth comes out too low and its width too "
+      "large. Make the triangles of wall '{}' smaller until it is {:g} wide",
+      row.width_mean / edge, kEnough, run.walls()[*wall].setup().name, kAdvised);
+}
+
 void complete_record(io::RunRecord& record, const Simulation& run, const io::RunRecorder& recorder,
                      RunLog& log) {
   record.steps = run.steps();
@@ -133,12 +148,21 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
   if (record.ledger.residual > 1e-9)
     warn(fmt::format("the ledger does not close: residual {:.3g}", record.ledger.residual));
   for (const simulation::WearSetup& wear : run.setup().wear)
-    if (std::ranges::none_of(run.setup().walls, [&](const auto& wall) { return wall.material == wear.worn; }))
-      warn(fmt::format("[wear.\"{}/{}\"] has no effect: no wall is made of {}, and particles do not wear",
-                       wear.abrader, wear.worn, wear.worn));
+    if (std::ranges::none_of(run.setup().walls,
+                             [&](const auto& wall) { return wall.material == wear.worn; }) &&
+        std::ranges::none_of(run.setup().particles, [&](const auto& particle) {
+          return particle.material == wear.worn && particle.guide != simulation::Guide::none;
+        }))
+      warn(
+          fmt::format("[wear.\"{}/{}\"] has no effect: no wall is made of {}, and only guided particles wear",
+                      wear.abrader, wear.worn, wear.worn));
+  if (record.ledger.tip_residual > 1e-9)
+    warn(fmt::format("the pin's ledger does not close: residual {:.3g}", record.ledger.tip_residual));
   if (record.status == "completed" && run.law_volume() == 0.0 &&
       std::ranges::any_of(run.setup().wear, [](const auto& wear) { return wear.wear_coefficient > 0.0; }))
     warn("a wear coefficient is given, but nothing was worn: does a wall slide under a particle?");
+  if (record.last)
+    if (std::string coarse = coarse_groove(run, *record.last); !coarse.empty()) warn(std::move(coarse));
 }
 
 /// The disk is full or gone, or memory, in the middle of a run: says so in the manifest, if that can still be
@@ -159,7 +183,7 @@ void try_to_record_failure(io::RunRecord& record, const fs::path& folder, const 
 
 /// Finds how many revolutions stand for those of the test, and says so.
 study::AccelerationChoice choose_acceleration(const simulation::Setup& setup, RunLog& log) {
-  const study::AccelerationChoice choice = study::choose_acceleration(
+  study::AccelerationChoice choice = study::choose_acceleration(
       setup, MeshLoader(setup), [] { return !StopSignals::requested(); },
       [&](const study::AccelerationTrial& trial) {
         log.line(trial.difference

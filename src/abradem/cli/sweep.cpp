@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <utility>
 
 #include "abradem/cli/batch.h"
 #include "abradem/cli/commands.h"
@@ -13,6 +15,8 @@
 #include "abradem/core/version.h"
 #include "abradem/io/atomic_file.h"
 #include "abradem/io/factor_text.h"
+#include "abradem/report/page.h"
+#include "abradem/report/seed_section.h"
 #include "abradem/report/sweep_page.h"
 #include "abradem/study/design.h"
 
@@ -77,7 +81,10 @@ void write_summary(const SweepArguments& arguments, const fs::path& output,
                                 sweep_command_line(arguments));
   const report::SweepTable table = report::make_sweep_table(keys, runs);
   io::write_file_atomically(output / "summary.csv", report::to_csv(table));
-  report::write_page(output, report::sweep_page(summary, table));
+  report::Page page = report::sweep_page(summary, table);
+  if (std::optional<report::PageSection> seeds = report::seed_section(table, runs))
+    page.sections.insert(page.sections.begin() + 1, std::move(*seeds));  // behind the main effects
+  report::write_page(output, page);
 }
 
 std::string read_text(const fs::path& path) {

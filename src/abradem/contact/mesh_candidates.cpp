@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
+
+#include "abradem/contact/candidate_kernels.h"
+#include "abradem/core/simd.h"
 
 namespace abradem::contact {
 
@@ -13,7 +15,12 @@ namespace {
 
 using geometry::TriangleMesh;
 
+constexpr double kShapeTolerance = 5e-3;  // of an edge: wear since the triangles were measured
+
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+ABRADEM_INLINE double larger(double a, double b) { return a > b ? a : b; }
+ABRADEM_INLINE double smaller(double a, double b) { return a < b ? a : b; }
 
 std::size_t padded(std::size_t n) noexcept {
   return (n + MeshCandidates::kLanes - 1) / MeshCandidates::kLanes * MeshCandidates::kLanes;
@@ -64,30 +71,58 @@ struct Sweep {
             {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y), std::min(a.high.z, b.high.z)}};
   }
 
-  /// Distance of `centre` from the axis on its way, when something within `radius` of it across the axis and
-  /// `half_depth` along the axis can be met.
-  [[nodiscard]] std::optional<double> may_meet(const Vec3& centre, double radius,
-                                               double half_depth) const noexcept {
+  /// Can something be met in the box centre +- half, worn by up to `displaced`?
+  [[nodiscard]] bool may_meet(const Vec3& centre, const Vec3& half, double displaced) const noexcept {
     const Vec3 offset = centre - c;
     const double along = dot(offset, axis);
     const double across = norm(beside(skin.slide, offset - along * axis));
-    const double a = std::max(0.0, across - radius - skin.tangential);
-    const double b = std::max(0.0, std::abs(along) - half_depth - skin.normal);
-    return a * a + b * b < reach * reach ? std::optional(across) : std::nullopt;
-  }
-
-  /// The same of a triangle.
-  [[nodiscard]] std::optional<double> meets(const TriangleMesh& mesh, Index t) const noexcept {
-    const geometry::Triangle& v = mesh.triangles[at(t)];
-    const Vec3 &p0 = mesh.vertices[at(v[0])], &p1 = mesh.vertices[at(v[1])], &p2 = mesh.vertices[at(v[2])];
-    const Vec3 centroid = (p0 + p1 + p2) * (1.0 / 3.0);
-    const Vec3 q0 = p0 - centroid, q1 = p1 - centroid, q2 = p2 - centroid;
-    const double radius = std::sqrt(std::max({norm2(q0), norm2(q1), norm2(q2)}));
     const double half_depth =
-        std::max({std::abs(dot(q0, axis)), std::abs(dot(q1, axis)), std::abs(dot(q2, axis))});
-    return may_meet(centroid, radius, half_depth);
+        std::abs(half.x * axis.x) + std::abs(half.y * axis.y) + std::abs(half.z * axis.z) + displaced;
+    const double a = std::max(0.0, across - norm(half) - displaced - skin.tangential);
+    const double b = std::max(0.0, std::abs(along) - half_depth - skin.normal);
+    return a * a + b * b < reach * reach;
   }
 };
+
+/// The same of triangles: across[k] becomes the distance of the centroid from the axis on its way, or -1
+/// where triangle which[k] cannot be met.
+ABRADEM_DISPATCH void meet_triangles(const Sweep& sweep, const TriangleMesh& mesh,
+                                     std::span<const Index> which, double* __restrict across) noexcept {
+  const Index* __restrict triangle = which.data();
+  const Index* __restrict corner = mesh.triangles.data()->data();
+  const double* __restrict xyz = &mesh.vertices.data()->x;
+  const auto [cx, cy, cz] = sweep.c;
+  const auto [nx, ny, nz] = sweep.axis;
+  const auto [sx, sy, sz] = sweep.skin.slide;
+  const double slide2 = norm2(sweep.skin.slide), inverse = slide2 > 0.0 ? 1.0 / slide2 : 0.0;
+  const double tangential = sweep.skin.tangential, normal = sweep.skin.normal;
+  const double reach2 = sweep.reach * sweep.reach;
+#pragma omp simd
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const Index first = 3 * triangle[k];
+    const Index i0 = 3 * corner[first], i1 = 3 * corner[first + 1], i2 = 3 * corner[first + 2];
+    const double x0 = xyz[i0] - cx, y0 = xyz[i0 + 1] - cy, z0 = xyz[i0 + 2] - cz;
+    const double x1 = xyz[i1] - cx, y1 = xyz[i1 + 1] - cy, z1 = xyz[i1 + 2] - cz;
+    const double x2 = xyz[i2] - cx, y2 = xyz[i2 + 1] - cy, z2 = xyz[i2 + 2] - cz;
+    const double x = (x0 + x1 + x2) / 3.0, y = (y0 + y1 + y2) / 3.0, z = (z0 + z1 + z2) / 3.0;
+    // The triangle as seen from its centroid: a radius, and a half depth along the axis.
+    const double h = x * nx + y * ny + z * nz;
+    const double d0 = std::abs(x0 * nx + y0 * ny + z0 * nz - h),
+                 d1 = std::abs(x1 * nx + y1 * ny + z1 * nz - h),
+                 d2 = std::abs(x2 * nx + y2 * ny + z2 * nz - h);
+    const auto square = [](double a, double b, double c) { return a * a + b * b + c * c; };
+    const double r0 = square(x0 - x, y0 - y, z0 - z), r1 = square(x1 - x, y1 - y, z1 - z),
+                 r2 = square(x2 - x, y2 - y, z2 - z);
+    const double radius = std::sqrt(larger(larger(r0, r1), r2)), half_depth = larger(larger(d0, d1), d2);
+    // As in may_meet.
+    const double ox = x - h * nx, oy = y - h * ny, oz = z - h * nz;
+    const double way = smaller(larger((ox * sx + oy * sy + oz * sz) * inverse, 0.0), 1.0);
+    const double distance = std::sqrt(square(ox - way * sx, oy - way * sy, oz - way * sz));
+    const double a = larger(0.0, distance - radius - tangential);
+    const double b = larger(0.0, std::abs(h) - half_depth - normal);
+    across[k] = a * a + b * b < reach2 ? distance : -1.0;
+  }
+}
 
 }  // namespace
 
@@ -108,9 +143,9 @@ void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec
     fetch_positions(surface.mesh);
     // Positions are always the mesh's own; areas and lengths may lag behind by half a per cent of an edge,
     // which changes a normal force by about 1e-5.
-    constexpr double kShapeTolerance = 5e-3;
     if (surface.odometer - odometer_at_measure_ > kShapeTolerance * shortest_) {
       measure_triangles();
+      bound_depth();
       odometer_at_measure_ = surface.odometer;
     }
     revision_ = surface.revision;
@@ -125,28 +160,22 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   // With no axis every direction is as likely: the whole skin counts as both.
   const double whole = std::hypot(skin.tangential, skin.normal);
   const Sweep sweep{c, axis, built_reach_, axis == Vec3{} ? CandidateSkin{whole, 0.0, skin.slide} : skin};
-  found_.clear();
+  near_.clear();
   const auto [low, high] = sweep.box(surface);
-  double furthest = 0.0;
   surface.grid.visit_near(
       low, high,
-      [&](const Vec3& centre, double r) {
-        return sweep.may_meet(centre, r + surface.displaced, r + surface.displaced).has_value();
-      },
-      [&](Index t) {
-        if (const auto distance = sweep.meets(mesh, t)) {
-          found_.emplace_back(*distance, t);
-          furthest = std::max(furthest, *distance);
-        }
-      });
-  order_outwards(furthest);
-  triangle.assign(ordered_.begin(), ordered_.end());
+      [&](const Vec3& centre, const Vec3& half) { return sweep.may_meet(centre, half, surface.displaced); },
+      [&](Index t) { near_.push_back(t); });
+  across_.resize(near_.size());
+  meet_triangles(sweep, mesh, near_, across_.data());
+  order_outwards();
   number_nodes(mesh);
   allocate();
   fetch_positions(mesh);
   measure_triangles();
   link_nodes();
   place_mean_plane(c, reach);
+  bound_depth();
 
   gathered_ = true;
   built_at_ = c;
@@ -167,6 +196,7 @@ bool MeshCandidates::restore(const TriangleMesh& mesh) {
     x[i] = measured_[i].x, y[i] = measured_[i].y, z[i] = measured_[i].z;
   measure_triangles();
   link_nodes();
+  bound_depth();
   // Where wear has moved the surface since the last fetch, the next update fetches again.
   fetch_positions(mesh);
   return true;
@@ -197,24 +227,26 @@ void MeshCandidates::allocate() {
   for (auto* array : {&x, &y, &z}) array->assign(nodes, far_away);
   for (auto* array : {&node_area, &bx, &by, &bz}) array->resize(nodes);
   for (auto* array : {&v0, &v1, &v2}) array->resize(triangles, 0);
-  for (auto* array : {&ax, &ay, &az, &plane, &l01, &l12, &l20, &longest, &area})
-    array->assign(triangles, 0.0);
+  for (auto* array : {&ax, &ay, &az, &plane, &l01, &l12, &l20, &longest, &area}) array->resize(triangles);
 }
 
 /// From the middle outwards: what is inside the ball comes first, what its rim cuts next, what is outside
 /// last, so that loops can stop early and their branches are easy to foresee. Thirty-two rings are order
 /// enough.
-void MeshCandidates::order_outwards(double furthest) {
+void MeshCandidates::order_outwards() {
   constexpr std::size_t kRings = 32;
+  const double furthest = near_.empty() ? 0.0 : *std::ranges::max_element(across_);
   const double scale = furthest > 0.0 ? kRings / furthest : 0.0;
   const auto ring = [&](double distance) {
     return std::min(kRings - 1, static_cast<std::size_t>(distance * scale));
   };
   std::array<std::size_t, kRings + 1> start{};
-  for (const auto& [distance, t] : found_) ++start[ring(distance) + 1];
+  for (const double distance : across_)
+    if (distance >= 0.0) ++start[ring(distance) + 1];
   for (std::size_t r = 0; r < kRings; ++r) start[r + 1] += start[r];
-  ordered_.resize(found_.size());
-  for (const auto& [distance, t] : found_) ordered_[start[ring(distance)]++] = t;
+  triangle.resize(start[kRings]);
+  for (std::size_t k = 0; k < near_.size(); ++k)
+    if (across_[k] >= 0.0) triangle[start[ring(across_[k])]++] = near_[k];
 }
 
 void MeshCandidates::link_nodes() {
@@ -247,6 +279,14 @@ void MeshCandidates::place_mean_plane(const Vec3& c, double reach) noexcept {
   mean_point = weight > 0.0 ? c + sum / weight : c;
 }
 
+/// Holds until the triangles are measured again.
+void MeshCandidates::bound_depth() noexcept {
+  double lowest = 0.0;
+  for (std::size_t i = 0; i < node.size(); ++i)
+    lowest = std::min(lowest, dot(node_position(i) - mean_point, mean_normal));
+  below_plane = kShapeTolerance * shortest_ - lowest;
+}
+
 void MeshCandidates::fetch_positions(const TriangleMesh& mesh) noexcept {
   for (std::size_t i = 0; i < node.size(); ++i) {
     const Vec3& p = mesh.vertices[at(node[i])];
@@ -256,42 +296,16 @@ void MeshCandidates::fetch_positions(const TriangleMesh& mesh) noexcept {
   }
 }
 
-void MeshCandidates::measure_triangles() noexcept {
-  Vec3 sum;
+void MeshCandidates::measure_triangles() {
   measured_.resize(node.size());
   for (std::size_t i = 0; i < node.size(); ++i) measured_[i] = node_position(i);
-  longest_edge2 = 0.0;
-  for (auto* array : {&node_area, &bx, &by, &bz}) std::ranges::fill(*array, 0.0);
-  double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < triangle.size(); ++t) {
-    const Vec3 p0 = node_position(static_cast<std::size_t>(v0[t]));
-    const Vec3 e01 = node_position(static_cast<std::size_t>(v1[t])) - p0;
-    const Vec3 e02 = node_position(static_cast<std::size_t>(v2[t])) - p0;
-    const Vec3 a = 0.5 * cross(e01, e02);
-    ax[t] = a.x, ay[t] = a.y, az[t] = a.z;
-    area[t] = norm(a);
-    plane[t] = dot(a, p0);
-    const Vec3 third = a * (1.0 / 3.0);
-    for (const std::int32_t v : {v0[t], v1[t], v2[t]}) {
-      const auto i = static_cast<std::size_t>(v);
-      node_area[i] += area[t] * (1.0 / 3.0);
-      bx[i] += third.x, by[i] += third.y, bz[i] += third.z;
-    }
-    l01[t] = norm2(e01);
-    l20[t] = norm2(e02);
-    l12[t] = norm2(e02 - e01);
-    longest[t] = std::max({l01[t], l12[t], l20[t]});
-    longest_edge2 = std::max(longest_edge2, longest[t]);
-    shortest = std::min({shortest, l01[t], l12[t], l20[t]});
-    sum += a;
-  }
-  shortest_ = std::sqrt(shortest);
-  const double total = norm(sum);
-  mean_normal = normalized(sum);
+  const kernels::TriangleSums sums = kernels::measure_triangles(*this);
+  kernels::measure_nodes(*this, around_);
+  longest_edge2 = sums.longest2;
+  shortest_ = std::sqrt(sums.shortest2);
+  mean_normal = normalized(sums.area);
   constexpr double kCos10Degrees = 0.984807753012208;
-  nearly_flat_ = total > 0.0;
-  for (std::size_t t = 0; t < triangle.size() && nearly_flat_; ++t)
-    nearly_flat_ = ax[t] * sum.x + ay[t] * sum.y + az[t] * sum.z >= kCos10Degrees * area[t] * total;
+  nearly_flat_ = mean_normal != Vec3{} && kernels::least_facing(*this, mean_normal, kCos10Degrees) >= 0.0;
 }
 
 }  // namespace abradem::contact

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "abradem/geometry/triangle_grid.h"
@@ -75,6 +75,14 @@ class MeshCandidates {
   [[nodiscard]] Vec3 node_position(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
   [[nodiscard]] std::uint64_t gatherings() const noexcept { return gatherings_; }
 
+  /// Number of nodes in front, in whole lanes, behind which no excess is above `least` (nodes are numbered
+  /// outwards too).
+  [[nodiscard]] static std::size_t count_above(std::span<const double> excess, double least) noexcept {
+    std::size_t n = excess.size();
+    while (n > 0 && excess[n - 1] <= least) --n;
+    return (n + kLanes - 1) / kLanes * kLanes;
+  }
+
   std::vector<Index> node;               ///< mesh vertex of each local node
   std::vector<double> x, y, z;           ///< node positions, padded [m]
   std::vector<double> node_area;         ///< third of the area of the triangles around, padded [m^2]
@@ -83,6 +91,7 @@ class MeshCandidates {
   std::vector<std::int32_t> star;
   Vec3 mean_normal;                      ///< of all candidates, unit
   Vec3 mean_point;                       ///< of the nodes inside the ball when gathered, by overlap [m]
+  double below_plane = 0.0;              ///< no node lies further below the plane through these two [m]
   std::vector<Index> triangle;           ///< mesh triangle of each local triangle
   std::vector<std::int32_t> v0, v1, v2;  ///< local nodes of each triangle, padded
   std::vector<double> ax, ay, az;        ///< area vectors, padded [m^2]
@@ -95,23 +104,25 @@ class MeshCandidates {
  private:
   void gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
               const CandidateSkin& skin);
-  void order_outwards(double furthest);
+  void order_outwards();
   void number_nodes(const geometry::TriangleMesh& mesh);
   void allocate();
   void link_nodes();
   void place_mean_plane(const Vec3& c, double reach) noexcept;
   void fetch_positions(const geometry::TriangleMesh& mesh) noexcept;
-  void measure_triangles() noexcept;
+  void measure_triangles();
+  void bound_depth() noexcept;
 
   bool gathered_ = false, nearly_flat_ = false;
   Vec3 built_at_, built_axis_;
   CandidateSkin built_skin_;
   double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0;
-  std::vector<Vec3> measured_;                   // nodes' positions when the triangles were last measured
-  std::vector<std::pair<double, Index>> found_;  // scratch: distance from the way, triangle
-  std::vector<Index> ordered_;                   // scratch
-  std::vector<std::int32_t> local_;              // scratch: local number of a mesh vertex, or -1
+  std::vector<Vec3> measured_;       // nodes' positions when the triangles were last measured
+  std::vector<Index> near_;          // scratch: triangles of the cells near the way
+  std::vector<double> across_;       // scratch: their distances from the way, or -1: out of reach
+  std::vector<double> around_;       // scratch: of measure_nodes
+  std::vector<std::int32_t> local_;  // scratch: local number of a mesh vertex, or -1
 };
 
 }  // namespace abradem::contact

@@ -29,12 +29,15 @@ double patch_stiffness(const PairProperties& pair, double R, double delta) noexc
 }
 
 std::span<const Patch> PatchEvaluator::evaluate(const MeshCandidates& candidates, const Vec3& c, double R,
-                                                const PairProperties& pair) {
+                                                const PairProperties& pair, const Tip& tip) {
   patches_.clear();
   clusters_.clear();
   excess_.resize(candidates.x.size());
   largest_excess_ = kernels::node_excess(candidates, c, R, excess_);
-  if (!evaluate_nodes(candidates, c, R, pair)) evaluate_triangles(candidates, c, R, pair);
+  if (tip.worn())
+    evaluate_worn(candidates, c, R, pair, tip);
+  else if (!evaluate_nodes(candidates, c, R, pair))
+    evaluate_triangles(candidates, c, R, pair);
   return patches_;
 }
 
@@ -46,7 +49,10 @@ bool PatchEvaluator::evaluate_nodes(const MeshCandidates& candidates, const Vec3
     return false;
   const double overlap = R - dot(candidates.mean_normal, c - candidates.mean_point);
   if (!(overlap > 0.0)) return false;
-  const kernels::NodeSums s = kernels::node_sums(candidates, c, R, excess_, scratch_);
+  // Behind the last node inside the ball, or inside once moved into the plane, there is nothing to sum.
+  const double below = candidates.below_plane, distance = R - overlap;
+  const std::size_t count = MeshCandidates::count_above(excess_, -below * (2.0 * distance + below) / (R * R));
+  const kernels::NodeSums s = kernels::node_sums(candidates, c, R, std::span(excess_).first(count), scratch_);
   // The nodal rule errs by some tenths of a per cent of what it integrates, so that must be a small part.
   constexpr double kLargestDifference = 0.3;
   const double along = dot(s.G, candidates.mean_normal);

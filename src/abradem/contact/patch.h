@@ -6,6 +6,7 @@
 
 #include "abradem/contact/hertz_mindlin.h"
 #include "abradem/contact/mesh_candidates.h"
+#include "abradem/contact/tip_shape.h"
 
 namespace abradem::contact {
 
@@ -32,12 +33,16 @@ struct Patch {
 class PatchEvaluator {
  public:
   /// Finds the patches of a sphere at c among the candidates (which must be up to date for it).
+  /// @param tip worn end of the sphere: its recession is taken from the overlap everywhere
   /// @return valid until the next call; deepest patch first, empty without contact
   std::span<const Patch> evaluate(const MeshCandidates& candidates, const Vec3& c, double R,
-                                  const PairProperties& pair);
+                                  const PairProperties& pair, const Tip& tip = {});
 
-  /// 1 - |x - c|^2 / R^2 of each candidate node, from the last evaluation, padded; > 0 inside.
+  /// 1 - |x - c|^2 / R^2 of each candidate node, from the last evaluation, padded; > 0 inside. With a worn
+  /// tip: the excess that has the overlap with it.
   [[nodiscard]] std::span<const double> node_excess() const noexcept { return excess_; }
+  /// The same of the sphere as new; of a worn tip only.
+  [[nodiscard]] std::span<const double> raw_excess() const noexcept { return raw_; }
   /// Patch of each candidate triangle (index into the last result, -1: none); empty when there is one patch
   /// at most.
   [[nodiscard]] std::span<const int> clusters() const noexcept { return clusters_; }
@@ -45,13 +50,18 @@ class PatchEvaluator {
   /// What is asked for between two evaluations, for core/archive.h.
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
-    archive("excess", self.excess_);
+    archive("excess", self.excess_)("correction", self.correction_);
   }
+  /// After loading. @param tip the worn end that the next evaluation is for
+  void restore(const Tip& tip) noexcept { correction_.restore(tip); }
 
  private:
   bool evaluate_nodes(const MeshCandidates& candidates, const Vec3& c, double R, const PairProperties& pair);
   void evaluate_triangles(const MeshCandidates& candidates, const Vec3& c, double R,
                           const PairProperties& pair);
+  void evaluate_worn(const MeshCandidates& candidates, const Vec3& c, double R, const PairProperties& pair,
+                     const Tip& tip);
+  void integrate_worn(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip);
   void classify(const MeshCandidates& candidates, double R, double limit);
   void add_caps(const MeshCandidates& candidates, std::size_t t, double R);
   void add_rim(const MeshCandidates& candidates, std::size_t t, double R);
@@ -61,6 +71,9 @@ class PatchEvaluator {
   void single(const MeshCandidates& candidates, std::size_t padded, double R, const PairProperties& pair);
   void cluster(const MeshCandidates& candidates, const Vec3& c, double R, const PairProperties& pair);
 
+  std::vector<double> raw_;  // excess of the sphere as new, where its tip is worn
+  TipCorrection correction_;
+  const Tip* tip_ = nullptr;  // of the evaluation that is going on; null: the sphere is as new
   std::vector<double> excess_, e0_, e1_, e2_, mean_g_, mean_m_, bound_, inside_, height_;
   std::vector<Patch> patches_;
   std::vector<int> clusters_;  // patch of each triangle; empty: one patch

@@ -67,7 +67,8 @@ void PatchEvaluator::cluster(const MeshCandidates& candidates, const Vec3& c, do
                              .point;
     const Vec3 offset = c - nearest;
     const double distance = norm(offset);
-    spots.push_back({static_cast<std::int32_t>(t), normalized(offset), R - distance});
+    const double depth = tip_ != nullptr ? tip_->overlap(-offset, R) : R - distance;
+    spots.push_back({static_cast<std::int32_t>(t), normalized(offset), depth});
   }
   TriangleLinks links = connect(candidates, spots, c, R);
 

@@ -119,11 +119,8 @@ ABRADEM_DISPATCH void node_terms(const MeshCandidates& candidates, const Vec3& c
   }
 }
 
-ABRADEM_DISPATCH double sum_lanes(const double* __restrict values, std::size_t padded_count) noexcept {
-  core::Lanes sum{};
-  const auto lanes = [](const double* p) { return reinterpret_cast<const core::Lanes*>(p); };
-  for (std::size_t i = 0; i < padded_count; i += kLanes) sum += *lanes(values + i);
-  return ABRADEM_SUM_LANES(sum);
+ABRADEM_DISPATCH double sum_row(const double* __restrict values, std::size_t padded_count) noexcept {
+  return core::sum_lanes(values, padded_count);
 }
 
 }  // namespace
@@ -134,7 +131,7 @@ NodeSums node_sums(const MeshCandidates& candidates, const Vec3& c, double R, st
   if (scratch.size() < 6 * n) scratch.resize(6 * n);
   const double distance = dot(candidates.mean_normal, c - candidates.mean_point);
   node_terms(candidates, c, R, distance, n, excess.data(), scratch.data());
-  const auto sum = [&](std::size_t row) { return sum_lanes(scratch.data() + row * n, n); };
+  const auto sum = [&](std::size_t row) { return sum_row(scratch.data() + row * n, n); };
   return {{sum(0), sum(1), sum(2)}, sum(3), sum(4), sum(5)};
 }
 

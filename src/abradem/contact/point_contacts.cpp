@@ -53,7 +53,7 @@ bool stronger(const PointContact& a, const PointContact& b) noexcept {
 
 }  // namespace
 
-void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R) {
+void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip) {
   touched_.clear();
   excess_.assign(candidates.x.size(), -1.0);
   const double inverse = 1.0 / (R * R);
@@ -73,13 +73,18 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
     if (candidates.ax[t] * offset.x + candidates.ay[t] * offset.y + candidates.az[t] * offset.z < 0.0)
       continue;
     const auto local = static_cast<std::int32_t>(t);
-    touched_.push_back({closest.point, offset / distance, R - distance, closest.feature, local, local});
+    const double overlap = tip.worn() ? tip.overlap(-offset, R) : R - distance;
+    touched_.push_back({closest.point, offset / distance, overlap, closest.feature, local, local});
+  }
+  if (tip.worn()) {
+    raw_ = excess_;
+    correction_.apply(candidates, c, R, tip, raw_, excess_);
   }
 }
 
 std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates,
-                                                               const Vec3& c, double R) {
-  collect(candidates, c, R);
+                                                               const Vec3& c, double R, const Tip& tip) {
+  collect(candidates, c, R, tip);
   std::sort(touched_.begin(), touched_.end(), stronger);
   accepted_.clear();
   for (const PointContact& p : touched_) {
@@ -94,14 +99,14 @@ std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandida
           const auto [qa, qb] = feature_vertices(candidates, q);
           return (qa == a || qb == a) && (qa == b || qb == b);
         });
-    if (!owned) accepted_.push_back(p);
+    if (!owned && p.overlap > 0.0) accepted_.push_back(p);
   }
   return accepted_;
 }
 
 std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates& candidates, const Vec3& c,
-                                                           double R) {
-  collect(candidates, c, R);
+                                                           double R, const Tip& tip) {
+  collect(candidates, c, R, tip);
   find_flat_sets(candidates);
   // Each set's deepest point, strongest sets first.
   std::vector<PointContact> best;
@@ -116,6 +121,7 @@ std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates&
   std::sort(best.begin(), best.end(), stronger);
   accepted_.clear();
   for (const PointContact& p : best) {
+    if (!(p.overlap > 0.0)) continue;
     const auto [a, b] = feature_vertices(candidates, p);
     const auto set_holds_feature = [&, a = a, b = b](const PointContact& q) {
       return std::ranges::any_of(touched_, [&](const PointContact& t) {

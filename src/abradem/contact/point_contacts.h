@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "abradem/contact/mesh_candidates.h"
+#include "abradem/contact/tip_shape.h"
 #include "abradem/geometry/closest_point.h"
 
 namespace abradem::contact {
@@ -13,7 +14,7 @@ namespace abradem::contact {
 struct PointContact {
   Vec3 point;            ///< nearest point of the surface [m]
   Vec3 n;                ///< unit vector from it to the centre
-  double overlap = 0.0;  ///< R - distance, > 0 [m]
+  double overlap = 0.0;  ///< R - distance, less the recession of a worn tip there; > 0 [m]
   geometry::Feature feature = geometry::Feature::face;
   std::int32_t triangle = 0;  ///< local, in the candidates
   int set = 0;                ///< `resolved`: its connected flat set; otherwise its own number
@@ -25,27 +26,33 @@ class PointContactFinder {
  public:
   /// Rule `per_triangle`: every triangle whose nearest point lies within R is a contact of its own; a shared
   /// edge or vertex counts once, and not at all where a triangle around it is touched on its face.
-  std::span<const PointContact> per_triangle(const MeshCandidates& candidates, const Vec3& c, double R);
+  std::span<const PointContact> per_triangle(const MeshCandidates& candidates, const Vec3& c, double R,
+                                             const Tip& tip = {});
 
   /// Rule `resolved`: one contact, the deepest, per connected set of overlapped triangles that lie within 5
   /// degrees of their neighbours; an edge or vertex of a set that touches another contact's set there is that
   /// contact. Angles are those of the mesh as it is now.
-  std::span<const PointContact> resolved(const MeshCandidates& candidates, const Vec3& c, double R);
+  std::span<const PointContact> resolved(const MeshCandidates& candidates, const Vec3& c, double R,
+                                         const Tip& tip = {});
 
-  /// 1 - |x - c|^2 / R^2 of each candidate node, from the last call, padded; > 0 inside.
+  /// 1 - |x - c|^2 / R^2 of each candidate node, from the last call, padded; > 0 inside. With a worn tip:
+  /// the excess that has the overlap with it.
   [[nodiscard]] std::span<const double> node_excess() const noexcept { return excess_; }
+  /// The same of the sphere as new; of a worn tip only.
+  [[nodiscard]] std::span<const double> raw_excess() const noexcept { return raw_; }
 
   /// `resolved`: set of each candidate triangle, or -1 where it is not overlapped.
   [[nodiscard]] std::span<const int> sets() const noexcept { return set_; }
 
  private:
-  void collect(const MeshCandidates& candidates, const Vec3& c, double R);
+  void collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip);
   void find_flat_sets(const MeshCandidates& candidates);
 
-  std::vector<PointContact> touched_;  // nearest point of every overlapped triangle
+  std::vector<PointContact> touched_;  // nearest point of every triangle that the ball cuts
   std::vector<PointContact> accepted_;
   std::vector<int> set_;
-  std::vector<double> excess_;
+  std::vector<double> excess_, raw_;
+  TipCorrection correction_;
 };
 
 }  // namespace abradem::contact

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+
 /// Loops marked ABRADEM_DISPATCH are compiled for several instruction sets; the machine's best is taken at
 /// start up. They are written so that every set gives the same bits: elementwise, or summed in eight fixed
 /// lanes.
@@ -18,5 +20,17 @@ using Lanes = double __attribute__((vector_size(64), aligned(8), may_alias));
   ((((v)[0] + (v)[1]) + ((v)[2] + (v)[3])) + (((v)[4] + (v)[5]) + ((v)[6] + (v)[7])))
 /// What such a loop calls must become part of it.
 #define ABRADEM_INLINE inline __attribute__((always_inline))
+
+/// Sum of an array padded to eight lanes; call it from such a loop's function.
+ABRADEM_INLINE double sum_lanes(const double* values, std::size_t padded_count) {
+  // Halves of the eight lanes: the widest that all machines with vectors worth the name keep in registers.
+  using Half = double __attribute__((vector_size(32), aligned(8), may_alias));
+  Half low{}, high{};
+  for (std::size_t i = 0; i < padded_count; i += 8) {
+    low += *reinterpret_cast<const Half*>(values + i);
+    high += *reinterpret_cast<const Half*>(values + i + 4);
+  }
+  return ((low[0] + low[1]) + (low[2] + low[3])) + ((high[0] + high[1]) + (high[2] + high[3]));
+}
 
 }  // namespace abradem::core

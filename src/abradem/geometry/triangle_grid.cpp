@@ -44,7 +44,11 @@ TriangleGrid::TriangleGrid(const TriangleMesh& mesh) {
     const double radius =
         std::sqrt(std::max({norm2(p[0] - centroid), norm2(p[1] - centroid), norm2(p[2] - centroid)}));
     if (radius > cell_) continue;
-    overhang_ = std::max(overhang_, radius);
+    for (const Vec3& corner : p) {
+      overhang_.x = std::max(overhang_.x, std::abs(corner.x - centroid.x));
+      overhang_.y = std::max(overhang_.y, std::abs(corner.y - centroid.y));
+      overhang_.z = std::max(overhang_.z, std::abs(corner.z - centroid.z));
+    }
     const CellRange r = cells_of(centroid, centroid);
     home[static_cast<std::size_t>(t)] = cell_index(r.low[0], r.low[1], r.low[2]);
   }

@@ -25,20 +25,19 @@ class TriangleGrid {
   /// Visits the triangles (as built) that may meet a region, each once, in an order that depends on the grid
   /// alone.
   /// @param low,high a box around the region [m]
-  /// @param may_meet (Vec3 centre, double radius) -> bool: could the region meet something in this sphere?
+  /// @param may_meet (Vec3 centre, Vec3 half) -> bool: could the region meet something in the box centre +-
+  /// half?
   /// @param visit (Index triangle)
   template <typename MayMeet, typename Visit>
   void visit_near(const Vec3& low, const Vec3& high, MayMeet&& may_meet, Visit&& visit) const {
     if (small_.start.empty()) return;
-    const Vec3 grow{overhang_, overhang_, overhang_};
-    const CellRange r = cells_of(low - grow, high + grow);
+    const CellRange r = cells_of(low - overhang_, high + overhang_);
     std::vector<Index> large;
     for (auto k = r.low[2]; k <= r.high[2]; ++k)
       for (auto j = r.low[1]; j <= r.high[1]; ++j)
         for (auto i = r.low[0]; i <= r.high[0]; ++i) {
           const BoundingBox box = cell_box(i, j, k);
-          const double radius = 0.5 * norm(box.high - box.low) + overhang_;
-          if (!may_meet(0.5 * (box.low + box.high), radius)) continue;
+          if (!may_meet(0.5 * (box.low + box.high), 0.5 * (box.high - box.low) + overhang_)) continue;
           const Index cell = cell_index(i, j, k);
           for (const Index t : small_[cell]) visit(t);
           for (const Index t : large_[cell]) large.push_back(t);
@@ -64,7 +63,8 @@ class TriangleGrid {
   [[nodiscard]] Rows bin(Index items, CellsOf&& cells_of_item) const;
 
   Vec3 origin_, top_;
-  double cell_ = 1.0, overhang_ = 0.0;
+  Vec3 overhang_;  // how far small triangles reach beyond the cells of their centroids
+  double cell_ = 1.0;
   std::array<std::int32_t, 3> count_{0, 0, 0};
   Rows small_, large_;  // triangles of each cell
 };

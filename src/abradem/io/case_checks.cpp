@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <vector>
 
+#include "abradem/contact/hertz_mindlin.h"
 #include "abradem/core/suggest.h"
 #include "abradem/core/units.h"
 #include "abradem/io/case_schema.h"
@@ -58,6 +60,7 @@ class Checker {
     check_names();
     check_contact_pairs();
     check_wear_pairs();
+    check_ploughing();
     for (const WallSetup& wall : setup_.walls) check_wall(wall);
     for (const ParticleSetup& particle : setup_.particles) check_particle(particle);
     check_run();
@@ -176,6 +179,16 @@ class Checker {
           "wears");
   }
 
+  void check_ploughing() {
+    if (!setup_.ploughing || setup_.ploughing->removed_fraction == 1.0 || !good("wall")) return;
+    for (const WallSetup& wall : setup_.walls)
+      if (wall.deformation == DeformationRule::paper)
+        error(
+            path_of("wall", wall.name) + ".deformation",
+            "the deformation rule paper moves whole elements inwards and has no ridges; with [ploughing] use "
+            "deformation = \"conserving\"");
+  }
+
   // ---- walls
   // -------------------------------------------------------------------------------------------------
 
@@ -255,6 +268,7 @@ class Checker {
     if (p.guide == Guide::vertical && good(path) && norm2(p.load) == 0.0 && norm2(setup_.run.gravity) == 0.0)
       note(path,
            fmt::format("nothing presses '{}' down: it has no load, and the run has no gravity", p.name));
+    if (good(path)) check_load(p, path);
     if (!good(path + ".radius") || !good(path + ".position")) return;
     constexpr double kLargestPin = 1.0;
     if (p.guide == Guide::vertical && p.radius > kLargestPin)
@@ -263,6 +277,35 @@ class Checker {
                         p.name, readable(p.radius), p.radius));
     else
       check_placement(p, path);
+  }
+
+  /// Does the load, shared by all walls, leave the particle in what Hertz's law holds for?
+  void check_load(const ParticleSetup& p, const std::string& path) {
+    constexpr double kDeepest = 0.1;
+    const auto material_named = [&](const std::string& name) {
+      return std::ranges::find(setup_.materials, name, &MaterialSetup::name);
+    };
+    const auto own = material_named(p.material);
+    const double share = norm(p.load) / static_cast<double>(setup_.walls.size());
+    double least = std::numeric_limits<double>::infinity();
+    for (const WallSetup& wall : setup_.walls) {
+      const auto other = material_named(wall.material);
+      if (own == setup_.materials.end() || other == setup_.materials.end()) return;
+      least = std::min(
+          least, contact::hertz_overlap(
+                     material::effective_moduli({own->density, own->shear_modulus, own->poisson_ratio},
+                                                {other->density, other->shear_modulus, other->poisson_ratio}),
+                     p.radius, share));
+    }
+    if (setup_.walls.empty() || least <= kDeepest * p.radius) return;
+    const std::string_view why =
+        "more than a tenth of its radius, where Hertz's law of contact ends; check the load (N) and the "
+        "shear moduli (Pa)";
+    if (std::isfinite(least))
+      note(path + ".load",
+           fmt::format("the load would press '{}' {} deep into the wall, {}", p.name, readable(least), why));
+    else
+      error(path + ".load", fmt::format("the load would press '{}' through the wall, {}", p.name, why));
   }
 
   /// How far the point under the particle's centre is outside a flat shape [m]; <= 0: above it.

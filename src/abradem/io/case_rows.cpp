@@ -150,6 +150,32 @@ const std::array kRows{
         .example = "\"1 %\"",
         .doc = "Of acceleration = \"auto\": difference allowed between the mean profiles, relative L2."},
 
+    Row{.section = "ploughing",
+        .key = "removed_fraction",
+        .slot = ABRADEM_SLOT(setup->ploughing->removed_fraction),
+        .limits = {.low = 0.0, .high = 1.0},
+        .example = "0.6",
+        .doc = "Of the volume that leaves a groove, the part that is lost as debris (f_ab of Zum Gahr); the "
+               "rest "
+               "is moved to ridges beside the contact. The wear coefficient gives the lost volume, so that "
+               "wear_coefficient / removed_fraction leaves the groove; at 0 nothing is lost and the "
+               "coefficient is that of the groove."},
+    Row{.section = "ploughing",
+        .key = "ridge_angle",
+        .need = Need::has_default,
+        .slot = ABRADEM_SLOT(setup->ploughing->ridge_angle),
+        .unit = "deg",
+        .limits = {.low = 0.0, .high = 1.5533430342749532, .low_excluded = true},
+        .example = "\"10 deg\"",
+        .doc = "Steepest flank that a ridge builds against the first surface."},
+    Row{.section = "ploughing",
+        .key = "ahead",
+        .need = Need::has_default,
+        .slot = ABRADEM_SLOT(setup->ploughing->ahead),
+        .limits = {.low = 0.0, .high = 1.0},
+        .example = "0.2",
+        .doc = "Share of what is moved that goes ahead of the contact instead of beside it."},
+
     Row{.section = "wall.*",
         .key = "material",
         .kind = Kind::material,

@@ -46,6 +46,7 @@ Target target_with_defaults() {
     s.wear.emplace_back();
     s.walls.emplace_back();
     s.particles.emplace_back();
+    s.ploughing.emplace();
     s.measurement.emplace();
     s.measurement->wear_volume.emplace();
     s.measurement->depth.emplace();

@@ -49,7 +49,9 @@ std::vector<std::string_view> split(std::string_view line) {
   }
 }
 
-std::string read_text(const std::filesystem::path& path) {
+}  // namespace
+
+std::string read_csv_text(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
     throw IoError(fmt::format("'{}': no such file; expected a table in CSV", path.string()));
@@ -60,8 +62,6 @@ std::string read_text(const std::filesystem::path& path) {
   if (!stream) throw IoError(fmt::format("'{}': cannot be read; check its permissions", path.string()));
   return text;
 }
-
-}  // namespace
 
 CsvWriter::CsvWriter(std::filesystem::path path, std::vector<std::string> columns)
     : path_(std::move(path)), temporary_(path_), columns_(std::move(columns)) {
@@ -188,7 +188,7 @@ std::vector<double> CsvTable::column(std::string_view name) const {
   return out;
 }
 
-CsvTable read_csv(const std::filesystem::path& path) { return parse_csv(read_text(path), path.string()); }
+CsvTable read_csv(const std::filesystem::path& path) { return parse_csv(read_csv_text(path), path.string()); }
 
 CsvTable parse_csv(std::string_view text, const std::string& name) {
   const auto refuse = [&](std::size_t line, const std::string& what) {

@@ -76,6 +76,9 @@ struct CsvTable {
   [[nodiscard]] std::vector<double> column(std::string_view name) const;
 };
 
+/// The bytes of a file of numbers.   @throws IoError when there is none, or it cannot be read
+[[nodiscard]] std::string read_csv_text(const std::filesystem::path& path);
+
 /// Reads what CsvWriter writes, and refuses all else: no file, no header, names that CsvWriter refuses, a row
 /// of another length, a field that is not one number, a last line without its end (a file cut short).
 /// @throws IoError with file, line and column

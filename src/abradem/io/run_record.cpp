@@ -27,11 +27,23 @@ constexpr double kMm = 1e3, kMm3 = 1e9;
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json ledger_json(const simulation::Ledger& ledger) {
-  return {{"law_volume_mm3", number(kMm3 * ledger.law)},
-          {"deposited_volume_mm3", number(kMm3 * ledger.deposited)},
-          {"swept_volume_mm3", number(kMm3 * ledger.swept)},
-          {"residual_relative", number(ledger.residual)},
-          {"kappa", number(ledger.kappa)}};
+  Json json = {{"law_volume_mm3", number(kMm3 * ledger.law)},
+               {"deposited_volume_mm3", number(kMm3 * ledger.deposited)},
+               {"swept_volume_mm3", number(kMm3 * ledger.swept)},
+               {"residual_relative", number(ledger.residual)},
+               {"kappa", number(ledger.kappa)}};
+  if (ledger.displaced > 0.0)
+    json["ploughing"] = {{"groove_volume_mm3", number(kMm3 * (ledger.law + ledger.displaced))},
+                         {"removed_volume_mm3", number(kMm3 * ledger.law)},
+                         {"displaced_volume_mm3", number(kMm3 * ledger.displaced)},
+                         {"piled_volume_mm3", number(kMm3 * ledger.piled)},
+                         {"unpiled_volume_mm3", number(kMm3 * ledger.unpiled)}};
+  if (ledger.tip_law > 0.0)
+    json["pin"] = {{"law_volume_mm3", number(kMm3 * ledger.tip_law)},
+                   {"deposited_volume_mm3", number(kMm3 * ledger.tip_deposited)},
+                   {"removed_volume_mm3", number(kMm3 * ledger.tip_removed)},
+                   {"residual_relative", number(ledger.tip_residual)}};
+  return json;
 }
 
 Json results_json(const RunRecord& record) {

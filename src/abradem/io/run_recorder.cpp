@@ -52,12 +52,17 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder, State st
       folder_(std::move(folder)),
       state_(std::move(state)),
       tables_(made(folder_ / "tables"), state_.tables),
+      groove_(run, folder_, state_.groove_tables),
       force_(folder_ / "tables" / "force.csv",
              {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts",
               "normal_along_N", "normal_across_N", "normal_sum_N"},
              CsvWriter::Growing{state_.force_table}) {
   if (run.setup().output.frames != simulation::Frames::none) made(folder_ / "vtk");
   worn_wall_ = analysis::worn_wall(run.walls());
+  const bool around =
+      worn_wall_ && run.walls()[*worn_wall_].setup().motion.kind == simulation::MotionKind::rotation;
+  normality_.emplace(folder_ / "tables", around ? analysis::Ends::joined : analysis::Ends::open,
+                     state_.normality_table);
   for (std::size_t p = run.particles().size(); p-- > 0;)
     if (norm2(run.particles().load[p]) > 0.0) watched_particle_ = p;
   force_stride_ = static_cast<std::uint64_t>(
@@ -73,12 +78,16 @@ bool RunRecorder::output_due() const noexcept {
 RunRecorder::State RunRecorder::state() const {
   State now = state_;
   now.tables = tables_.positions();
+  now.groove_tables = groove_.positions();
   now.force_table = force_.position();
+  now.normality_table = normality_->position();
   return now;
 }
 
 void RunRecorder::sync() {
   tables_.sync();
+  groove_.sync();
+  normality_->sync();
   force_.sync();
 }
 
@@ -94,25 +103,30 @@ void RunRecorder::observe(const Simulation& run) {
 }
 
 std::vector<analysis::Contour> RunRecorder::cut_contours() const {
-  std::vector<analysis::Contour> contours =
-      analysis::wall_contours(run_.walls()[*worn_wall_], run_.setup().output.contours);
+  return analysis::wall_contours(run_.walls()[*worn_wall_], run_.setup().output.contours);
+}
+
+void RunRecorder::keep_some_profiles(std::vector<analysis::Contour>& contours) {
   const std::size_t every = std::max<std::size_t>(1, contours.size() / kProfiles);
   for (std::size_t i = 0; i < contours.size(); ++i)
     if (i % every != 0) contours[i].profile.clear();
-  return contours;
 }
 
 void RunRecorder::output(bool last) {
   state_.ledger = run_.ledger();
-  const std::vector<analysis::Contour> contours =
-      worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
+  std::vector<analysis::Contour> contours = worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
+  groove_.add(run_, state_.ledger, revolution_of(run_), contours);
+  keep_some_profiles(contours);
   state_.last = analysis::revolution_row(revolution_of(run_), run_.test_time(),
                                          {state_.ledger.law, state_.ledger.swept, state_.ledger.paper},
                                          contours, state_.normal_force);
   state_.normal_force = {};
   state_.outputs_until = run_.steps();
   tables_.add(*state_.last, contours);
+  normality_->add(state_.last->revolution, contours);
   tables_.flush();
+  groove_.flush();
+  normality_->flush();
   force_.flush();
   if (last || run_.setup().output.frames == simulation::Frames::all) write_frame();
 }
@@ -120,6 +134,7 @@ void RunRecorder::output(bool last) {
 void RunRecorder::write_frame() {
   if (run_.setup().output.frames == simulation::Frames::none) return;
   const double time = run_.test_time();
+  triangles_.resize(run_.walls().size());
   for (std::size_t w = 0; w < run_.walls().size(); ++w) {
     const simulation::Wall& wall = run_.walls()[w];
     if (wall.is_plane()) continue;
@@ -133,7 +148,8 @@ void RunRecorder::write_frame() {
       for (double& v : volume) v *= 1e18;
       const VtpArray points[]{{"depth_um", depth, 1}};
       const VtpArray cells[]{{"wear_volume_um3", volume, 1}};
-      write_vtp(folder_ / file, wall.surface().mesh(), points, cells);
+      if (!triangles_[w]) triangles_[w].emplace(wall.surface().mesh().triangles);
+      write_vtp(folder_ / file, wall.surface().mesh().vertices, *triangles_[w], points, cells);
     }
     state_.frames.push_back({time, file, static_cast<int>(w)});
   }
@@ -169,6 +185,8 @@ void RunRecorder::write_elements() const {
 void RunRecorder::close() {
   run_.on_step({});
   tables_.close();
+  normality_->close();
+  groove_.close(run_);
   force_.close();
   write_elements();
 }

@@ -9,6 +9,8 @@
 #include "abradem/analysis/revolution_row.h"
 #include "abradem/analysis/statistics.h"
 #include "abradem/io/csv.h"
+#include "abradem/io/groove_tables.h"
+#include "abradem/io/normality_table.h"
 #include "abradem/io/vtp.h"
 #include "abradem/io/wear_tables.h"
 #include "abradem/simulation/simulation.h"
@@ -27,7 +29,8 @@ class RunRecorder {
   /// row.
   struct State {
     WearTablePositions tables;
-    std::uint64_t force_table = 0;  ///< bytes
+    GrooveTablePositions groove_tables;
+    std::uint64_t force_table = 0, normality_table = 0;  ///< bytes
     analysis::RunningStatistics normal_force;
     std::vector<PvdEntry> frames;
     int frame = 0;
@@ -37,7 +40,8 @@ class RunRecorder {
 
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
-      archive("tables", self.tables)("force_table", self.force_table)("normal_force", self.normal_force);
+      archive("tables", self.tables)("groove_tables", self.groove_tables)("force_table", self.force_table);
+      archive("normality_table", self.normality_table)("normal_force", self.normal_force);
       archive("frames", self.frames)("frame", self.frame)("outputs_until", self.outputs_until);
       archive("ledger", self.ledger)("last", self.last);
     }
@@ -66,6 +70,7 @@ class RunRecorder {
  private:
   void observe(const simulation::Simulation& run);
   [[nodiscard]] std::vector<analysis::Contour> cut_contours() const;
+  static void keep_some_profiles(std::vector<analysis::Contour>& contours);
   void write_frame();
   void write_elements() const;
 
@@ -76,7 +81,10 @@ class RunRecorder {
   std::uint64_t force_stride_ = 1;
   State state_;  // its table positions: where the record was taken up
   WearTables tables_;
+  GrooveTables groove_;
+  std::optional<NormalityTable> normality_;
   CsvWriter force_;
+  std::vector<std::optional<VtpTriangles>> triangles_;  // of each wall, once it has a frame
 };
 
 }  // namespace abradem::io

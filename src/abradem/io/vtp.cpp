@@ -43,23 +43,45 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+/// An array as it stands in the file.
+std::string packed(const void* values, std::size_t bytes) {
+  const auto* data = static_cast<const Bytef*>(values);
+  std::vector<std::uint64_t> sizes{(bytes + kBlock - 1) / kBlock, kBlock, bytes % kBlock};
+  std::string blocks;
+  std::vector<Bytef> buffer(compressBound(kBlock));
+  for (std::size_t begin = 0; begin < bytes; begin += kBlock) {
+    uLongf size = buffer.size();
+    if (compress2(buffer.data(), &size, data + begin, std::min(kBlock, bytes - begin), kLevel) != Z_OK)
+      throw IoError("cannot compress an array for a VTP file");
+    sizes.push_back(size);
+    blocks.append(reinterpret_cast<const char*>(buffer.data()), size);
+  }
+  return std::string(reinterpret_cast<const char*>(sizes.data()), sizes.size() * sizeof(std::uint64_t)) +
+         blocks;
+}
+std::string packed(std::span<const Index> values) { return packed(values.data(), values.size_bytes()); }
+
+/// Where each cell of n corners ends.
+std::vector<Index> ends_of_cells(std::size_t cells, Index n) {
+  std::vector<Index> ends(cells);
+  for (std::size_t i = 0; i < cells; ++i) ends[i] = static_cast<Index>(i + 1) * n;
+  return ends;
+}
+
 /// Collects the header's lines and the appended data while a file is composed.
 class Composer {
  public:
   void line(const std::string& text) { header_ += text + "\n"; }
 
-  void array(const char* type, const std::string& name, int components, const void* data, std::size_t bytes) {
+  void array(const char* type, const std::string& name, int components, const std::string& packed_values) {
     header_ += fmt::format(
         R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)", type,
         escaped(name), components, data_.size());
     header_ += '\n';
-    append_compressed(static_cast<const Bytef*>(data), bytes);
+    data_ += packed_values;
   }
   void array(const std::string& name, int components, std::span<const double> values) {
-    array("Float64", name, components, values.data(), values.size_bytes());
-  }
-  void array(const std::string& name, std::span<const Index> values) {
-    array("Int32", name, 1, values.data(), values.size_bytes());
+    array("Float64", name, components, packed(values.data(), values.size_bytes()));
   }
 
   /// The whole file.
@@ -71,22 +93,6 @@ class Composer {
   }
 
  private:
-  void append_compressed(const Bytef* data, std::size_t bytes) {
-    const std::size_t blocks = (bytes + kBlock - 1) / kBlock;
-    std::vector<std::uint64_t> sizes{blocks, kBlock, bytes % kBlock};
-    std::string packed;
-    std::vector<Bytef> buffer(compressBound(kBlock));
-    for (std::size_t begin = 0; begin < bytes; begin += kBlock) {
-      uLongf size = buffer.size();
-      if (compress2(buffer.data(), &size, data + begin, std::min(kBlock, bytes - begin), kLevel) != Z_OK)
-        throw IoError("cannot compress an array for a VTP file");
-      sizes.push_back(size);
-      packed.append(reinterpret_cast<const char*>(buffer.data()), size);
-    }
-    data_.append(reinterpret_cast<const char*>(sizes.data()), sizes.size() * sizeof(std::uint64_t));
-    data_ += packed;
-  }
-
   std::string header_, data_;
 };
 
@@ -105,33 +111,37 @@ void add_fields(Composer& composer, const char* element, std::span<const VtpArra
 void add_points(Composer& composer, std::span<const Vec3> points) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   composer.line("<Points>");
-  composer.array("Float64", "Points", 3, points.data(), points.size_bytes());
+  composer.array("Float64", "Points", 3, packed(points.data(), points.size_bytes()));
   composer.line("</Points>");
 }
 
-/// Cells of n corners each.
-void add_cells(Composer& composer, const char* element, std::span<const Index> corners, Index n) {
-  std::vector<Index> ends(corners.size() / static_cast<std::size_t>(n));
-  for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = static_cast<Index>(i + 1) * n;
+void add_cells(Composer& composer, const char* element, const std::string& packed_corners,
+               const std::string& packed_ends) {
   composer.line(fmt::format("<{}>", element));
-  composer.array("connectivity", corners);
-  composer.array("offsets", ends);
+  composer.array("Int32", "connectivity", 1, packed_corners);
+  composer.array("Int32", "offsets", 1, packed_ends);
   composer.line(fmt::format("</{}>", element));
 }
 
 }  // namespace
 
-void write_vtp(const std::filesystem::path& path, const geometry::TriangleMesh& mesh,
-               std::span<const VtpArray> point_data, std::span<const VtpArray> cell_data) {
+VtpTriangles::VtpTriangles(std::span<const geometry::Triangle> triangles)
+    : size_(triangles.size()),
+      corners_(packed(triangles.data(), triangles.size_bytes())),
+      ends_(packed(ends_of_cells(triangles.size(), 3))) {
   static_assert(sizeof(geometry::Triangle) == 3 * sizeof(Index));
-  const Index* corners = mesh.triangles.empty() ? nullptr : mesh.triangles.front().data();
+}
+
+void write_vtp(const std::filesystem::path& path, std::span<const Vec3> vertices,
+               const VtpTriangles& triangles, std::span<const VtpArray> point_data,
+               std::span<const VtpArray> cell_data) {
   Composer composer;
-  composer.line(fmt::format(R"(<PolyData><Piece NumberOfPoints="{}" NumberOfPolys="{}">)",
-                            mesh.vertices.size(), mesh.triangles.size()));
-  add_fields(composer, "PointData", point_data, mesh.vertices.size());
-  add_fields(composer, "CellData", cell_data, mesh.triangles.size());
-  add_points(composer, mesh.vertices);
-  add_cells(composer, "Polys", {corners, 3 * mesh.triangles.size()}, 3);
+  composer.line(fmt::format(R"(<PolyData><Piece NumberOfPoints="{}" NumberOfPolys="{}">)", vertices.size(),
+                            triangles.size()));
+  add_fields(composer, "PointData", point_data, vertices.size());
+  add_fields(composer, "CellData", cell_data, triangles.size());
+  add_points(composer, vertices);
+  add_cells(composer, "Polys", triangles.corners(), triangles.ends());
   composer.line("</Piece></PolyData>");
   write_file_atomically(path, std::move(composer).file());
 }
@@ -146,7 +156,7 @@ void write_vtp_spheres(const std::filesystem::path& path, std::span<const Vec3> 
   composer.line(fmt::format(R"(<PolyData><Piece NumberOfPoints="{0}" NumberOfVerts="{0}">)", centres.size()));
   add_fields(composer, "PointData", arrays, centres.size());
   add_points(composer, centres);
-  add_cells(composer, "Verts", numbers, 1);
+  add_cells(composer, "Verts", packed(numbers), packed(ends_of_cells(numbers.size(), 1)));
   composer.line("</Piece></PolyData>");
   write_file_atomically(path, std::move(composer).file());
 }

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "abradem/report/text.h"
+
 namespace abradem::report {
 
 namespace {
@@ -64,7 +66,7 @@ std::string result_sentence(const CalibrationResult& r) {
   return fmt::format("{} = {}{} for {} = {}{}; {} % interval {}", alpha ? "wear_coefficient" : "revolutions",
                      number(e.value, 6), alpha ? " 1/Pa" : "", alpha ? "revolutions" : "wear_coefficient",
                      number(alpha ? r.revolutions.value : r.wear_coefficient.value, 6), alpha ? "" : " 1/Pa",
-                     number(100.0 * r.coverage), interval(e));
+                     number(100.0 * r.coverage), interval(e) + (alpha ? " 1/Pa" : ""));
 }
 
 std::string fit_sentence(const CalibrationResult& r) {
@@ -229,25 +231,25 @@ std::string aligned(const std::vector<std::string>& columns,
 }
 
 // --- JSON ------------------------------------------------------------------------------------------------
-Json json_number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+Json json_value(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 Json json_estimate(const Estimate& e) {
-  return {{"value", json_number(e.value)}, {"low", json_number(e.low)}, {"high", json_number(e.high)}};
+  return {{"value", json_value(e.value)}, {"low", json_value(e.low)}, {"high", json_value(e.high)}};
 }
 Json json_point(const CalibrationPoint& p) {
-  Json json{{"wear_coefficient_per_Pa", json_number(p.wear_coefficient)},
-            {"revolutions", json_number(p.revolutions)},
-            {"volume_mm3", json_number(kMm3 * p.volume)},
-            {"depth_mean_mm", json_number(kMm * p.depth.mean)},
-            {"depth_sd_mm", json_number(kMm * p.depth.sd)},
-            {"width_mean_mm", json_number(kMm * p.width.mean)},
-            {"width_sd_mm", json_number(kMm * p.width.sd)},
-            {"profile_distance", json_number(p.profile_distance)}};
+  Json json{{"wear_coefficient_per_Pa", json_value(p.wear_coefficient)},
+            {"revolutions", json_value(p.revolutions)},
+            {"volume_mm3", json_value(kMm3 * p.volume)},
+            {"depth_mean_mm", json_value(kMm * p.depth.mean)},
+            {"depth_sd_mm", json_value(kMm * p.depth.sd)},
+            {"width_mean_mm", json_value(kMm * p.width.mean)},
+            {"width_sd_mm", json_value(kMm * p.width.sd)},
+            {"profile_distance", json_value(p.profile_distance)}};
   if (!p.failure.empty()) json["failure"] = p.failure;
   return json;
 }
 Json json_range(const ProductRange& r) {
-  return {{"low", json_number(r.low)},
-          {"high", json_number(r.high)},
+  return {{"low", json_value(r.low)},
+          {"high", json_value(r.high)},
           {"low_reached", r.low_reached},
           {"high_reached", r.high_reached}};
 }
@@ -351,9 +353,17 @@ Figure volume_figure(const CalibrationResult& r) {
     s.dash = dash;
     s.x.push_back(0.0);
     s.y.push_back(0.0);
-    for (const auto& p : r.curve)
-      if (p.product / alpha <= last * (1.0 + 1e-9))
-        s.x.push_back(p.product / alpha), s.y.push_back(kMm3 * p.volume);
+    for (const auto& p : r.curve) {
+      const double at = p.product / alpha, volume = kMm3 * p.volume;
+      if (at >
+          last * (1.0 + 1e-9)) {  // the line ends at the last revolution, between two points of the curve
+        const double share = (last - s.x.back()) / (at - s.x.back());
+        s.y.push_back(s.y.back() + share * (volume - s.y.back()));
+        s.x.push_back(last);
+        break;
+      }
+      s.x.push_back(at), s.y.push_back(volume);
+    }
     panel.series.push_back(s);
   };
   with(fmt::format("α = {} 1/Pa", number(r.wear_coefficient.value)), r.wear_coefficient.value,
@@ -455,17 +465,17 @@ std::string calibration_json(const CalibrationResult& r) {
   json["wear_coefficient_per_Pa"] = json_estimate(r.wear_coefficient);
   json["revolutions"] = json_estimate(r.revolutions);
   json["product_per_Pa"] = json_estimate(r.product);
-  json["scaling_factor"] = json_number(r.scaling_factor);
-  json["first_guess"] = json_number(r.first_guess);
-  json["first_residual"] = json_number(r.first_residual);
-  json["residual"] = json_number(r.residual);
+  json["scaling_factor"] = json_value(r.scaling_factor);
+  json["first_guess"] = json_value(r.first_guess);
+  json["first_residual"] = json_value(r.first_residual);
+  json["residual"] = json_value(r.residual);
   json["runs"] = r.runs;
   if (!r.failure.empty()) json["failure"] = r.failure;
   json["calibrated"] = json_point(r.calibrated);
-  json["ridge"] = {{"volume_spread", json_number(r.ridge_volume_spread)},
-                   {"depth_spread", json_number(r.ridge_depth_spread)},
-                   {"width_spread", json_number(r.ridge_width_spread)},
-                   {"profile_distance", json_number(r.ridge_profile_distance)},
+  json["ridge"] = {{"volume_spread", json_value(r.ridge_volume_spread)},
+                   {"depth_spread", json_value(r.ridge_depth_spread)},
+                   {"width_spread", json_value(r.ridge_width_spread)},
+                   {"profile_distance", json_value(r.ridge_profile_distance)},
                    {"runs", Json::array()}};
   for (const CalibrationPoint& p : r.ridge) json["ridge"]["runs"].push_back(json_point(p));
   json["product_ranges_per_Pa"] = {{"volume", json_range(r.by_volume)}};
@@ -476,7 +486,7 @@ std::string calibration_json(const CalibrationResult& r) {
     Json row{{"found", p.unknown == Unknown::wear_coefficient ? "wear_coefficient" : "revolutions"},
              {"wear_coefficient_per_Pa", json_estimate(p.wear_coefficient)},
              {"revolutions", json_estimate(p.revolutions)},
-             {"scaling_factor", json_number(p.scaling_factor)}};
+             {"scaling_factor", json_value(p.scaling_factor)}};
     if (!p.failure.empty()) row["failure"] = p.failure;
     json["pairs"].push_back(row);
   }
@@ -487,20 +497,20 @@ std::string calibration_json(const CalibrationResult& r) {
 Page calibration_page(const CalibrationResult& r, const std::string& title) {
   Page page;
   page.title = title.empty() ? "Calibration" : "Calibration: " + title;
-  page.summary = result_sentence(r) + ".";
+  page.summary = typeset(result_sentence(r) + ".");
   page.cards = {{"wear coefficient", number(r.wear_coefficient.value) + " 1/Pa"},
                 {"revolutions", number(r.revolutions.value)},
                 {"α·n", number(r.product.value) + " 1/Pa"},
                 {"scaling factor", number(r.scaling_factor)},
                 {"volume missed by", fmt::format("{:.1e}", std::abs(r.residual))}};
   PageSection result{.title = "Result", .items = {}};
-  result.items.emplace_back(Paragraph{method_sentence(r)});
+  result.items.emplace_back(Paragraph{typeset(method_sentence(r))});
   for (const std::string& finding : {fit_sentence(r), interval_sentence(r)})
-    result.items.emplace_back(Paragraph{finding});
+    result.items.emplace_back(Paragraph{typeset(finding)});
   result.items.emplace_back(volume_figure(r));
 
   PageSection ridge{.title = "What the measurement cannot tell", .items = {}};
-  ridge.items.emplace_back(Paragraph{ridge_sentence(r)});
+  ridge.items.emplace_back(Paragraph{typeset(ridge_sentence(r))});
   ridge.items.emplace_back(ridge_figure(r));
   DataTable runs{
       .id = "ridge-runs",
@@ -512,7 +522,7 @@ Page calibration_page(const CalibrationResult& r, const std::string& title) {
 
   PageSection sections{.title = "Depth and width", .items = {}};
   for (const std::string& finding : {section_sentence(r), ranges_sentence(r)})
-    if (!finding.empty()) sections.items.emplace_back(Paragraph{finding});
+    if (!finding.empty()) sections.items.emplace_back(Paragraph{typeset(finding)});
   sections.items.emplace_back(curve_figure(r));
 
   page.sections = {result, ridge, sections};

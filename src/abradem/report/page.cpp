@@ -37,14 +37,13 @@ struct Numbering {
   std::vector<Numbered<DataTable>> tables;
 };
 
-Numbering number(const Page& page) {
+/// @param figures, tables numbered before
+Numbering number(const std::vector<PageSection>& sections, int figures = 0, int tables = 0) {
   Numbering out;
-  for (const PageSection& section : page.sections) {
+  for (const PageSection& section : sections) {
     for (const auto& item : section.items) {
-      if (const auto* figure = std::get_if<Figure>(&item))
-        out.figures.push_back({static_cast<int>(out.figures.size()) + 1, figure});
-      if (const auto* table = std::get_if<DataTable>(&item))
-        out.tables.push_back({static_cast<int>(out.tables.size()) + 1, table});
+      if (const auto* figure = std::get_if<Figure>(&item)) out.figures.push_back({++figures, figure});
+      if (const auto* table = std::get_if<DataTable>(&item)) out.tables.push_back({++tables, table});
     }
   }
   return out;
@@ -137,7 +136,7 @@ std::string table_rows(const DataTable& table) {
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const bool words = std::any_of(table.rows.begin(), table.rows.end(),
                                    [&](const auto& row) { return row[c].size() > 60; });
-    verdicts.push_back(lower(table.columns[c]) == "verdict");
+    verdicts.push_back(lower(table.columns[c]).starts_with("verdict"));
     styles.push_back(is_numeric(table, c) ? " class=\"number\"" : words ? " class=\"words\"" : "");
   }
   std::string out = "<thead><tr>";
@@ -261,11 +260,11 @@ std::string contents_html(const Page& page, const Numbering& items) {
   return out + "</ol>\n</nav>\n";
 }
 
-std::string sections_html(const Page& page, const Numbering& items) {
+std::string sections_html(const std::vector<PageSection>& sections, const Numbering& items) {
   std::string out;
   std::size_t figures = 0, tables = 0;
-  for (std::size_t s = 0; s < page.sections.size(); ++s) {
-    const PageSection& section = page.sections[s];
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    const PageSection& section = sections[s];
     out += fmt::format("<section aria-labelledby=\"section-{0}\">\n<h2 id=\"section-{0}\">{1}</h2>\n", s + 1,
                        escape_html(section.title));
     for (const auto& item : section.items) {
@@ -282,22 +281,8 @@ std::string sections_html(const Page& page, const Numbering& items) {
   return out;
 }
 
-}  // namespace
-
-std::string page_html(const Page& page) {
-  const Numbering items = number(page);
-  check(items);
-  return shell({.kicker = "Abradem",
-                .title = page.title,
-                .lead = page.summary,
-                .body = cards_html(page) + contents_html(page, items) + sections_html(page, items),
-                .data = figure_blocks(items),
-                .script = figures_script()});
-}
-
-std::filesystem::path write_page(const std::filesystem::path& folder, const Page& page) {
-  const std::string html = page_html(page);
-  const Numbering items = number(page);
+/// The tables of figures and tables, and the description of the figures.
+std::string write_tables(const std::filesystem::path& folder, const Numbering& items) {
   const std::filesystem::path tables = folder / "tables";
   std::error_code code;
   std::filesystem::create_directories(tables, code);
@@ -309,7 +294,37 @@ std::filesystem::path write_page(const std::filesystem::path& folder, const Page
   }
   for (const auto& [number, table] : items.tables)
     io::write_file_atomically(tables / (table->id + ".csv"), table_csv(*table));
-  io::write_file_atomically(tables / "figures.json", "[" + specifications + "]\n");
+  return specifications;
+}
+
+}  // namespace
+
+std::string page_html(const Page& page) {
+  const Numbering items = number(page.sections);
+  check(items);
+  return shell({.kicker = "Abradem",
+                .title = page.title,
+                .lead = page.summary,
+                .body = cards_html(page) + contents_html(page, items) + sections_html(page.sections, items),
+                .data = figure_blocks(items),
+                .script = figures_script()});
+}
+
+SectionParts section_parts(const std::vector<PageSection>& sections, int figures, int tables) {
+  const Numbering items = number(sections, figures, tables);
+  check(items);
+  return {sections_html(sections, items), figure_blocks(items)};
+}
+
+void write_section_tables(const std::filesystem::path& folder, const std::vector<PageSection>& sections) {
+  write_tables(folder, number(sections));
+}
+
+std::filesystem::path write_page(const std::filesystem::path& folder, const Page& page) {
+  const std::string html = page_html(page);
+  const Numbering items = number(page.sections);
+  const std::string specifications = write_tables(folder, items);
+  io::write_file_atomically(folder / "tables" / "figures.json", "[" + specifications + "]\n");
   std::filesystem::path file = folder / "report.html";
   io::write_file_atomically(file, html);
   return file;

@@ -67,7 +67,7 @@ struct Figure {
 };
 
 /// "Table 2. Title. Caption" and tables/<id>.csv. The values "reproduced", "trend only" and "not reproduced"
-/// of a column named verdict are shown as badges; any other value there as a grey one.
+/// of a column whose name begins with "verdict" are shown as badges; any other value there as a grey one.
 struct DataTable {
   std::string id = {};  ///< as in Figure
   std::string title = {}, caption = {};
@@ -97,6 +97,16 @@ struct Page {
 /// @throws Error (internal) when the data contradict themselves: lengths, ids, a series of theirs without a
 /// name
 [[nodiscard]] std::string page_html(const Page& page);
+
+/// Sections of a page that is made otherwise: their HTML, and the data of their figures for figures.js.
+struct SectionParts {
+  std::string html, data;
+};
+/// @param figures, tables that the page numbers before them   @throws Error (internal) as page_html
+[[nodiscard]] SectionParts section_parts(const std::vector<PageSection>& sections, int figures, int tables);
+
+/// Writes folder/tables/<id>.csv for each figure and table.   @throws IoError
+void write_section_tables(const std::filesystem::path& folder, const std::vector<PageSection>& sections);
 
 /// Writes folder/tables/<id>.csv for each figure and table, folder/tables/figures.json (what is drawn from
 /// which rows, for scripts/plot_paper.py) and last folder/report.html, each whole or not at all.

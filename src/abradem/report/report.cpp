@@ -13,6 +13,7 @@
 #include "abradem/report/page_parts.h"
 #include "abradem/report/page_source.h"
 #include "abradem/report/sections.h"
+#include "abradem/report/statistics_section.h"
 #include "abradem/report/text.h"
 
 namespace abradem::report {
@@ -107,24 +108,65 @@ std::string data_blocks(const RunFolder& run) {
   return out;
 }
 
-}  // namespace
+/// Mean distance from the axis of the deepest points of the last output's sections.
+double track_radius_mm(const RunFolder& run) {
+  const std::vector<double>&n = run.profiles["revolution"], &radius = run.profiles["radius_mm"],
+        &height = run.profiles["height_mm"], &angle = run.profiles["angle_deg"];
+  double sum = 0.0, deepest = 0.0, at = 0.0;
+  int sections = 0;
+  for (std::size_t r = 0; r < n.size(); ++r) {
+    if (n[r] != n.back()) continue;
+    if (height[r] < deepest) deepest = height[r], at = radius[r];
+    if (r + 1 == n.size() || angle[r + 1] != angle[r]) {
+      if (deepest < 0.0) sum += at, ++sections;
+      deepest = 0.0;
+    }
+  }
+  return sections > 0 ? sum / sections : std::numeric_limits<double>::quiet_NaN();
+}
 
-std::string make_page(const RunFolder& run) {
+std::vector<PageSection> statistics(const RunFolder& run) {
+  GrooveSeries series = groove_series(run.contours);
+  series.counted = run.manifest.counted;
+  if (series.counted == "revolution")
+    series.track_radius_mm = track_radius_mm(run);
+  else
+    series.ends = analysis::Ends::open;
+  if (series.revolutions == run.revolutions["revolution"]) {
+    series.grown.push_back({"swept volume", "mm³", run.revolutions["swept_volume_mm3"]});
+    series.grown.push_back({"volume by eq. 10-12", "mm³", run.revolutions["paper_volume_mm3"]});
+  }
+  return {statistics_section(series)};
+}
+
+constexpr int kFigures = 10;  ///< of run.html
+
+std::string page_of(const RunFolder& run, const std::vector<PageSection>& sections) {
+  const SectionParts numbers = section_parts(sections, kFigures, 0);
+  const std::string script = std::string(run_script()) + std::string(figures_script());
   return shell({.kicker = "Abradem wear report",
                 .title = page_title(run),
                 .lead = verdict(run),
                 .body = fill(run_body(), {{"cards", verdict_cards(run)},
+                                          {"statistics", numbers.html},
                                           {"ledger", ledger_table(run)},
                                           {"limits", limits_and_warnings(run)},
                                           {"inputs", inputs(run)},
                                           {"record", record_table(run)}}),
-                .data = data_blocks(run),
-                .script = run_script()});
+                .data = data_blocks(run) + numbers.data,
+                .script = script});
 }
+
+}  // namespace
+
+std::string make_page(const RunFolder& run) { return page_of(run, statistics(run)); }
 
 std::filesystem::path write_report(const std::filesystem::path& run_folder) {
   std::filesystem::path page = run_folder / "report.html";
-  io::write_file_atomically(page, make_page(read_run_folder(run_folder)));
+  const RunFolder run = read_run_folder(run_folder);
+  const std::vector<PageSection> sections = statistics(run);
+  write_section_tables(run_folder, sections);
+  io::write_file_atomically(page, page_of(run, sections));
   return page;
 }
 

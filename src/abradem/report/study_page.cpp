@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "abradem/report/paper_page.h"
+#include "abradem/report/scaling_page.h"
 #include "abradem/report/sweep_table.h"
 #include "abradem/report/text.h"
 
@@ -14,16 +16,6 @@ namespace {
 /// The value as a reader wants it: text without its quotes.
 std::string plain(const std::string& toml) {
   return toml.size() >= 2 && toml.front() == '"' ? toml.substr(1, toml.size() - 2) : toml;
-}
-
-/// "failed: …" of each run that did not complete, as one text; empty where all did.
-std::string gaps(std::span<const StudyRun> runs) {
-  std::string text;
-  for (const StudyRun& run : runs)
-    if (run.status != "completed")
-      text += fmt::format("{}{} {}{}{}", text.empty() ? "" : "; ", run.name, run.status,
-                          run.message.empty() ? "" : ": ", run.message);
-  return text;
 }
 
 SweepTable table_of(const simulation::VariationSetup& variation, std::span<const StudyRun> runs) {
@@ -103,11 +95,22 @@ DataTable study_runs_table(std::span<const StudyRun> runs, const std::filesystem
   return table;
 }
 
+std::string gaps(std::span<const StudyRun> runs) {
+  std::string text;
+  for (const StudyRun& run : runs)
+    if (run.status != "completed")
+      text += fmt::format("{}{} {}{}{}", text.empty() ? "" : "; ", run.name, run.status,
+                          run.message.empty() ? "" : ": ", run.message);
+  return text;
+}
+
 Page study_page(const simulation::Setup& study, std::span<const StudyRun> runs,
                 const std::filesystem::path& output) {
   switch (study.study->page) {
     case simulation::StudyPage::paper:
+      return paper_page(study, runs, output);
     case simulation::StudyPage::scaling:
+      return scaling_page(study, runs, output);
     case simulation::StudyPage::table:
       break;
   }

@@ -34,4 +34,7 @@ struct StudyRun {
 /// All runs: what was varied, how they ended, and where their tables are.
 [[nodiscard]] DataTable study_runs_table(std::span<const StudyRun> runs, const std::filesystem::path& output);
 
+/// "mesh_size/03 failed: …" of each run that did not complete, as one text; empty where all did.
+[[nodiscard]] std::string gaps(std::span<const StudyRun> runs);
+
 }  // namespace abradem::report

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 
 #include "abradem/core/error.h"
 
@@ -89,6 +92,27 @@ std::string readable(double value, int digits) {
   return text.substr(0, e) + " × 10" + superscript(std::atoi(text.c_str() + e + 1));
 }
 
+std::string readable_p(double p) {
+  return !std::isfinite(p) ? "–" : p < 1e-4 ? fmt::format("{:.0e}", p) : fmt::format("{:.2g}", p);
+}
+
+std::string typeset(std::string_view text) {
+  // Whole words alone: "um" is no part of "volume".
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kForms{
+      {{"mm^3", "mm³"}, {"mm^2", "mm²"}, {"um", "µm"}, {"alpha", "α"}, {"-+", "±"}, {"R2", "R²"}}};
+  std::string out;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" ,.;:()", from), text.size());
+    std::string_view word = text.substr(from, end - from);
+    for (const auto& [plain, set] : kForms)
+      if (word == plain) word = set;
+    out += word;
+    if (end < text.size()) out += text[end];
+    from = end + 1;
+  }
+  return out;
+}
+
 std::string readable_count(long long value) {
   std::string digits = std::to_string(value);
   const std::size_t first = value < 0 ? 1 : 0;
@@ -97,6 +121,11 @@ std::string readable_count(long long value) {
     digits.insert(at, "\u202F");
   }
   return digits;
+}
+
+std::string capital(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() += 'A' - 'a';
+  return text;
 }
 
 std::string deflate(std::string_view bytes) {

@@ -21,8 +21,18 @@ namespace abradem::report {
 /// an en dash where it is not finite.
 [[nodiscard]] std::string readable(double value, int digits = 4);
 
+/// A p-value for readers: two digits, one and the power of ten below 1e-4; an en dash where there is none.
+[[nodiscard]] std::string readable_p(double p);
+
+/// A sentence written for a terminal in ASCII as a page shows it: mm³ for mm^3, µm for um, α for alpha, ± for -+, R² for
+/// R2.
+[[nodiscard]] std::string typeset(std::string_view text);
+
 /// A whole number with thin spaces between thousands.
 [[nodiscard]] std::string readable_count(long long value);
+
+/// The text with its first letter in upper case (ASCII).
+[[nodiscard]] std::string capital(std::string text);
 
 /// zlib stream (RFC 1950) of the bytes, best compression that is still quick.
 /// @throws IoError when zlib fails (out of memory)

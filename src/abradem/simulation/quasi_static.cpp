@@ -17,7 +17,8 @@ namespace abradem::simulation {
 /// begins) the bracket closes around the jump. The forces found are scaled to carry the load exactly, which
 /// is what one more step would do to them.
 void Simulation::find_equilibrium(std::size_t p) {
-  constexpr double kTolerance = 1e-4;  // of the load, before the forces are scaled
+  constexpr double kTolerance = 1e-4;      // of the load, at the height found, before the forces are scaled
+  constexpr double kStiffnessError = 0.2;  // of a stiffness once measured, at most: what a move leaves over
   constexpr int kMostSteps = 400;
   const Vec3 guide = particles_.guide[p];
   const double load = norm(particles_.load[p]) + particles_.mass[p] * dot(setup_.run.gravity, guide);
@@ -54,23 +55,25 @@ void Simulation::find_equilibrium(std::size_t p) {
     (excess < 0.0 ? low : high) = h;
     constexpr double kNarrow = 1e-9;  // of the Hertz approach
     const bool jump = high - low <= kNarrow * approach;
-    if (std::abs(excess) <= kTolerance * load || (jump && excess > 0.0)) {
-      for (std::size_t w = 0; w < walls_.size(); ++w)
-        for (SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches()) {
-          t.force.F_n *= load / carried;
-          t.force.F_t = t.force.F_t * (load / carried);
-        }
-      return;
-    }
-
     double move = approach;  // not in contact yet: come closer
     if (slope > 0.0) {
       if (has_last && last_excess != excess) {
         const double secant = (excess - last_excess) / (h - last_h);
         if (secant > 0.0) stiffness_ratio_[p] = std::clamp(secant / slope, 0.1, 10.0);
       }
-      move = -excess / (slope * stiffness_ratio_[p]);
+      const bool measured = stiffness_ratio_[p] > 0.0;
+      move = -excess / (slope * (measured ? stiffness_ratio_[p] : 1.0));
       last_h = h, last_excess = excess, has_last = true;
+      const double left = (measured ? kStiffnessError : 1.0) * std::abs(excess);
+      if (left <= kTolerance * load || (jump && excess > 0.0)) {
+        particles_.position[p] += (jump ? 0.0 : move) * guide;
+        for (std::size_t w = 0; w < walls_.size(); ++w)
+          for (SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches()) {
+            t.force.F_n *= load / carried;
+            t.force.F_t = t.force.F_t * (load / carried);
+          }
+        return;
+      }
     }
     move = std::clamp(move, -0.5 * approach, 0.5 * approach);
     double next = h + move;

@@ -46,6 +46,15 @@ struct WearSetup {
   bool operator==(const WearSetup&) const = default;
 };
 
+/// Micro-ploughing: of the volume that leaves a groove, what part is lost and where the rest goes.
+/// docs/theory/ploughing.md
+struct PloughingSetup {
+  double removed_fraction = 1.0;             ///< f_ab: debris / volume that leaves the groove [-], 0 … 1
+  double ridge_angle = 0.17453292519943295;  ///< steepest flank that a ridge builds [rad]
+  double ahead = 0.0;  ///< share of what is displaced that goes ahead of the contact [-]
+  bool operator==(const PloughingSetup&) const = default;
+};
+
 enum class MeshShape { annulus, disc, plate, plane, file };
 struct MeshSetup {
   MeshShape shape = MeshShape::annulus;
@@ -186,6 +195,7 @@ struct Setup {
   std::vector<MaterialSetup> materials;
   std::vector<ContactSetup> contacts;
   std::vector<WearSetup> wear;
+  std::optional<PloughingSetup> ploughing;
   std::vector<WallSetup> walls;
   std::vector<ParticleSetup> particles;
   RunSetup run;

@@ -42,10 +42,13 @@ Simulation::Simulation(Setup setup, const MeshSource& source) : setup_(std::move
     if (period_ == 0.0) period_ = walls_.back().period().value_or(0.0);
   }
   find_pair_properties();
+  check_ploughing();
   add_particles();
+  add_tips();
   sphere_walls_.resize(particles_.size() * walls_.size());
   law_.assign(walls_.size(), 0.0);
   paper_.assign(walls_.size(), 0.0);
+  displaced_.assign(walls_.size(), 0.0);
   choose_time_step();
   poses_.resize(walls_.size());
   move_walls();
@@ -96,6 +99,30 @@ double Simulation::wear_coefficient(int abrader, int worn) const {
   return wear_[static_cast<std::size_t>(abrader) * materials_.size() + static_cast<std::size_t>(worn)];
 }
 
+double Simulation::groove_coefficient(int abrader, int worn) const {
+  const double alpha_s = wear_coefficient(abrader, worn), f = removed_fraction();
+  // Where nothing is removed the coefficient is that of the groove; see PloughingSetup.
+  return f < 1.0 && f > 0.0 ? alpha_s / f : alpha_s;
+}
+
+void Simulation::check_ploughing() const {
+  if (!setup_.ploughing) return;
+  const PloughingSetup& p = *setup_.ploughing;
+  if (!(p.removed_fraction >= 0.0 && p.removed_fraction <= 1.0))
+    throw InputError(
+        fmt::format("ploughing: removed_fraction = {}; must be from 0 to 1", p.removed_fraction));
+  if (!(p.ridge_angle > 0.0 && p.ridge_angle < 0.5 * pi))
+    throw InputError(fmt::format("ploughing: ridge_angle = {:.4g} degrees; must be above 0 and below 90",
+                                 p.ridge_angle * 180.0 / pi));
+  if (!(p.ahead >= 0.0 && p.ahead <= 1.0))
+    throw InputError(fmt::format("ploughing: ahead = {}; must be from 0 to 1", p.ahead));
+  for (const Wall& wall : walls_)
+    if (ploughs() && wall.setup().deformation == DeformationRule::paper)
+      throw InputError(
+          fmt::format("wall '{}': the deformation rule paper has no ridges; with [ploughing] use conserving",
+                      wall.setup().name));
+}
+
 void Simulation::add_particles() {
   for (const ParticleSetup& p : setup_.particles) {
     const int m = index_of(setup_.materials, p.material, "material");
@@ -117,9 +144,44 @@ void Simulation::add_particles() {
   }
   particles_.force.resize(particles_.size());
   particles_.torque.resize(particles_.size());
-  stiffness_ratio_.assign(particles_.size(), 1.0);
+  stiffness_ratio_.assign(particles_.size(), 0.0);
   for (std::size_t i = 0; i < particles_.size(); ++i)
     for (std::size_t j = i + 1; j < particles_.size(); ++j) sphere_pairs_.push_back({i, j, {}, 0.0});
+}
+
+/// A map for every guided sphere that some wall wears; as fine as a quarter of its first contact.
+void Simulation::add_tips() {
+  constexpr double kPointsPerRadius = 4.0;
+  tips_.resize(particles_.size());
+  tip_law_.assign(particles_.size(), 0.0);
+  tip_along_.assign(particles_.size(), {});
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    const Vec3& guide = particles_.guide[p];
+    if (guide == Vec3{}) continue;
+    const double R = particles_.radius[p];
+    const double load = std::max(norm(particles_.load[p]), particles_.mass[p] * norm(setup_.run.gravity));
+    double a = 0.01 * R;
+    Vec3 sliding;
+    bool wears = false;
+    for (const Wall& wall : walls_) {
+      if (wear_coefficient(wall.material(), particles_.material[p]) == 0.0) continue;
+      wears = true;
+      if (load > 0.0)
+        a = std::min(a,
+                     contact::contact_radius(
+                         R, contact::hertz_overlap(pair(particles_.material[p], wall.material()), R, load)));
+      if (sliding == Vec3{}) sliding = wall.pose_at(0.0).velocity_at(particles_.position[p]);
+    }
+    if (!wears) continue;
+    tips_[p].emplace(R, a / kPointsPerRadius);
+    // The map's first axis along the slide, as far as it goes across the guide; else along x or y.
+    const auto across = [&](const Vec3& v) { return v - dot(v, guide) * guide; };
+    Vec3 along = across(sliding);
+    if (norm(along) <= 1e-9 * norm(sliding)) along = across({1.0, 0.0, 0.0});
+    if (norm(along) < 0.1 * norm(across(sliding)) || norm2(along) < 1e-2 * norm2(sliding) || along == Vec3{})
+      along = across(std::abs(guide.x) < 0.9 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0});
+    tip_along_[p] = normalized(along);
+  }
 }
 
 /// Sliding distance per step of `quasi_static`, as shares f of the contact's half-width a [m].
@@ -140,7 +202,7 @@ double Simulation::choose_increment() const {
       double f = kShare;
       if (wall.setup().contact == ContactRule::patch && wall.setup().deformation != DeformationRule::paper)
         f = std::clamp(kShare * std::pow(n / kRevolutions, 2.0 / 3.0), kShare, kPatch);
-      const double alpha_E = wear_coefficient(particles_.material[p], wall.material()) * properties.E_eff;
+      const double alpha_E = groove_coefficient(particles_.material[p], wall.material()) * properties.E_eff;
       if (alpha_E > 0.0) f = std::min(f, kSteepest / alpha_E);
       increment = std::min(increment, f * a);
     }
@@ -221,6 +283,13 @@ void Simulation::move_walls() {
     instant += (places - std::floor(places)) * dt_;
   }
   for (std::size_t w = 0; w < walls_.size(); ++w) poses_[w] = walls_[w].pose_at(instant);
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    if (!tips_[p]) continue;
+    for (std::size_t w = 0; w < walls_.size(); ++w)
+      sphere_walls_[p * walls_.size() + w].set_tip({&tips_[p]->shape(), poses_[w].turn_back(tip_along_[p]),
+                                                    poses_[w].turn_back(tip_across(p)),
+                                                    poses_[w].turn_back(particles_.guide[p])});
+  }
 }
 
 void Simulation::find_contacts() {
@@ -309,12 +378,45 @@ void Simulation::accumulate_wear() {
   for (std::size_t p = 0; p < particles_.size(); ++p)
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       Wall& wall = walls_[w];
-      const double alpha_s = wear_coefficient(particles_.material[p], wall.material());
-      if (alpha_s == 0.0) continue;
-      law_[w] += sphere_walls_[p * walls_.size() + w].deposit(
-          wall, alpha_s, particles_.radius[p], pair(particles_.material[p], wall.material()),
-          [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); });
+      const double alpha_s = groove_coefficient(particles_.material[p], wall.material());
+      if (alpha_s != 0.0) {
+        const double volume = sphere_walls_[p * walls_.size() + w].deposit(
+            wall, alpha_s, particles_.radius[p], pair(particles_.material[p], wall.material()),
+            [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); });
+        if (ploughs())
+          plough(p, w, volume);
+        else
+          law_[w] += volume;
+      }
+      if (tips_[p]) wear_tip(p, w);
     }
+}
+
+void Simulation::wear_tip(std::size_t p, std::size_t w) {
+  const double alpha_s = wear_coefficient(walls_[w].material(), particles_.material[p]);
+  if (alpha_s == 0.0) return;
+  tip_law_[p] += sphere_walls_[p * walls_.size() + w].wear_tip(
+      *tips_[p], walls_[w], alpha_s, pair(particles_.material[p], walls_[w].material()), output_due(),
+      [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
+}
+
+/// Of what leaves the groove the removed fraction is lost, and the rest is piled up beside the contact.
+void Simulation::plough(std::size_t p, std::size_t w, double groove_volume) {
+  constexpr double kRevolutions = 24.0, kFurthest = 8.0;  // piles may lie apart where many passes share them
+  const double removed = removed_fraction() * groove_volume, displaced = groove_volume - removed;
+  law_[w] += removed;
+  displaced_[w] += displaced;
+  Wall& wall = walls_[w];
+  if (wall.is_plane()) return;
+  const geometry::Pose& pose = poses_[w];
+  const Vec3 v = pose.turn_back(particles_.velocity[p] - pose.velocity_at(particles_.position[p]));
+  const double n = period_ > 0.0 ? end_ / period_ : 0.0;
+  const wear::Ploughing ploughing{removed_fraction(), std::tan(setup_.ploughing->ridge_angle),
+                                  setup_.ploughing->ahead};
+  sphere_walls_[p * walls_.size() + w].plough(
+      wall, ploughing,
+      {displaced, v, norm(v) * dt_, std::clamp(n / kRevolutions, 1.0, kFurthest), output_due()},
+      particles_.radius[p], pair(particles_.material[p], wall.material()));
 }
 
 void Simulation::deform_walls() {
@@ -322,13 +424,13 @@ void Simulation::deform_walls() {
     const WallSetup& setup = walls_[w].setup();
     if (walls_[w].is_plane() || setup.deformation == DeformationRule::none) continue;
     wear::WearingSurface& surface = walls_[w].surface();
-    const bool output_due = (steps_ + 1) % steps_per_output_ == 0 || steps_ + 1 >= total_steps_;
+    const bool due = output_due();
     if (setup.deformation == DeformationRule::paper)
       paper_[w] += surface.deform_paper();
-    else if (output_due || (steps_ + 1) % static_cast<std::uint64_t>(setup.deform_every) == 0)
+    else if (due || (steps_ + 1) % static_cast<std::uint64_t>(setup.deform_every) == 0)
       surface.deform_conserving();
     constexpr std::uint64_t kBetweenChecks = 4096;  // elements beside the worn ones turn slowly
-    if (output_due || (steps_ + 1) % kBetweenChecks == 0) surface.check_orientation();
+    if (due || (steps_ + 1) % kBetweenChecks == 0) surface.check_orientation();
     const wear::DeformGuards& guards = surface.guards();
     if (guards.fatal_steps > 0 || guards.flipped > 0)
       throw SimulationError(fmt::format(
@@ -421,21 +523,43 @@ Ledger Simulation::ledger() {
       if (wall.setup().deformation == DeformationRule::conserving)
         paper_[w] += sphere_walls_[p * walls_.size() + w].take_centroid_volume(wall);
     const double swept = wall.surface().swept_volume();
+    double unpiled = 0.0;
     ledger.law += law_[w];
     ledger.deposited += wall.surface().deposited_volume();
-    for (std::size_t p = 0; p < particles_.size(); ++p)
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
       ledger.deposited += sphere_walls_[p * walls_.size() + w].pending_volume();
+      unpiled += sphere_walls_[p * walls_.size() + w].unpiled_volume();
+    }
     ledger.swept += swept;
     ledger.paper += paper_[w];
+    ledger.displaced += displaced_[w];
+    ledger.piled += wall.surface().raised_volume();
+    ledger.unpiled += unpiled;
     if (wall.setup().deformation == DeformationRule::conserving)
-      conserving_law += law_[w], conserving_swept += swept;
+      conserving_law += law_[w] + unpiled, conserving_swept += swept;
   }
-  if (ledger.law > 0.0) {
-    ledger.residual =
-        std::max(std::abs(ledger.deposited - ledger.law), std::abs(conserving_swept - conserving_law)) /
-        ledger.law;
-    ledger.kappa = ledger.swept / ledger.law;
+  if (const double groove = ledger.law + ledger.displaced; groove > 0.0) {
+    ledger.residual = std::max(std::abs(ledger.deposited - ledger.unpiled - ledger.law),
+                               std::abs(conserving_swept - conserving_law)) /
+                      groove;
+    if (ploughs())
+      ledger.residual =
+          std::max(ledger.residual, std::abs(ledger.piled + ledger.unpiled - ledger.displaced) / groove);
   }
+  if (ledger.law > 0.0) ledger.kappa = ledger.swept / ledger.law;
+  for (std::size_t p = 0; p < tips_.size(); ++p) {
+    if (!tips_[p]) continue;
+    double pending = 0.0;
+    for (std::size_t w = 0; w < walls_.size(); ++w)
+      pending += sphere_walls_[p * walls_.size() + w].tip_pending();
+    ledger.tip_law += tip_law_[p];
+    ledger.tip_deposited += tips_[p]->deposited_volume() + pending;
+    ledger.tip_removed += tips_[p]->removed_volume() + pending;
+  }
+  if (ledger.tip_law > 0.0)
+    ledger.tip_residual = std::max(std::abs(ledger.tip_deposited - ledger.tip_law),
+                                   std::abs(ledger.tip_removed - ledger.tip_law)) /
+                          ledger.tip_law;
   return ledger;
 }
 
@@ -459,6 +583,8 @@ std::uint64_t Simulation::state_hash() const {
     hash.add(wall.surface().element_volume());
   }
   for (const SphereWall& sw : sphere_walls_) sw.add_to(hash);
+  for (const auto& tip : tips_)
+    if (tip) hash.add(std::span<const double>(tip->shape().recession));
   for (const SpherePair& sp : sphere_pairs_) hash.add(sp.history.s);
   return hash.value();
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "abradem/simulation/setup.h"
 #include "abradem/simulation/sphere_wall.h"
 #include "abradem/simulation/wall.h"
+#include "abradem/wear/wearing_tip.h"
 
 namespace abradem::simulation {
 
@@ -25,12 +27,21 @@ struct Particles {
 
 /// What of the material lost is accounted for [m^3].
 struct Ledger {
-  double law = 0.0;        ///< sum of alpha F_n |v_t| dt over the contacts
-  double deposited = 0.0;  ///< booked in the elements
-  double swept = 0.0;      ///< lost by the mesh
-  double paper = 0.0;      ///< eq. 10-12 over the elements in contact
-  /// Largest of |deposited - law| and, where the rule conserves, |swept - law|, over law; 0 without wear.
+  double law = 0.0;            ///< removed: sum of alpha F_n |v_t| dt over the contacts
+  double deposited = 0.0;      ///< booked in the elements; what was piled up on them counts negative
+  double swept = 0.0;          ///< lost by the mesh
+  double paper = 0.0;          ///< eq. 10-12 over the elements in contact
+  double displaced = 0.0;      ///< ploughed aside; law + displaced left the groove
+  double piled = 0.0;          ///< … of it, found in the ridges
+  double unpiled = 0.0;        ///< … of it, that found no place beside the contact
+  double tip_law = 0.0;        ///< of the guided spheres' own wear: the law's volume
+  double tip_deposited = 0.0;  ///< … booked in the maps of their tips
+  double tip_removed = 0.0;    ///< … that these maps lack, by their shape
+  /// Largest of |deposited - law| and, where the rule conserves, |swept - law|, over the volume that left the
+  /// groove (without ploughing: over law); 0 without wear. With ploughing also |piled + unpiled - displaced|.
   double residual = 0.0;
+  /// Largest of |tip_deposited - tip_law| and |tip_removed - tip_law| over tip_law; 0 without wear.
+  double tip_residual = 0.0;
   /// swept / law; 0 without wear or with a rigid surface.
   double kappa = 0.0;
 
@@ -40,6 +51,9 @@ struct Ledger {
         "residual", self.residual)("kappa", self.kappa);
   }
 };
+
+/// Recession beyond which a tip counts as worn where its flat is measured [m].
+inline constexpr double kFlatLevel = 1e-8;
 
 /// The contact forces of one step, summed over the walls, for one particle.
 struct ForceSample {
@@ -105,6 +119,19 @@ class Simulation {
     return sphere_walls_[particle * walls_.size() + wall];
   }
   [[nodiscard]] Ledger ledger();
+  /// The worn tip of particle p; nothing where it cannot wear.
+  [[nodiscard]] const wear::WearingTip* tip(std::size_t p) const noexcept {
+    return tips_[p] ? &*tips_[p] : nullptr;
+  }
+  /// Its law's volume [m^3].
+  [[nodiscard]] double tip_law_volume(std::size_t p) const noexcept { return tip_law_[p]; }
+  /// Directions of the axes s and t of the map of particle p's tip, in the world.
+  [[nodiscard]] const Vec3& tip_along(std::size_t p) const noexcept { return tip_along_[p]; }
+  [[nodiscard]] Vec3 tip_across(std::size_t p) const noexcept {
+    return cross(tip_along_[p], particles_.guide[p]);
+  }
+  /// Does anything plough (a removed fraction below 1)?
+  [[nodiscard]] bool ploughs() const noexcept { return removed_fraction() < 1.0; }
   /// Volume worn so far by the law, all walls [m^3]; cheap.
   [[nodiscard]] double law_volume() const noexcept;
   /// Forces of the last step on particle p.
@@ -145,6 +172,18 @@ class Simulation {
   static void visit(Self& self, Archive& archive);
 
   void add_particles();
+  void add_tips();
+  void check_ploughing() const;
+  [[nodiscard]] double removed_fraction() const noexcept {
+    return setup_.ploughing ? setup_.ploughing->removed_fraction : 1.0;
+  }
+  /// Volume that leaves the groove per force and sliding distance [1/Pa].
+  [[nodiscard]] double groove_coefficient(int abrader, int worn) const;
+  void wear_tip(std::size_t p, std::size_t w);
+  void plough(std::size_t p, std::size_t w, double groove_volume);
+  [[nodiscard]] bool output_due() const noexcept {
+    return (steps_ + 1) % steps_per_output_ == 0 || steps_ + 1 >= total_steps_;
+  }
   void choose_time_step();
   [[nodiscard]] double choose_increment() const;
   void find_pair_properties();
@@ -179,13 +218,18 @@ class Simulation {
   std::vector<geometry::Pose> poses_;
   std::vector<SphereWall> sphere_walls_;  // particle-major
   std::vector<SpherePair> sphere_pairs_;
-  std::vector<double> law_, paper_;  // per wall [m^3]
+  std::vector<double> law_, paper_;                    // per wall [m^3]
+  std::vector<double> displaced_;                      // per wall, ploughed aside [m^3]
+  std::vector<std::optional<wear::WearingTip>> tips_;  // per particle
+  std::vector<Vec3> tip_along_;                        // per particle: axis s of its tip's map
+  std::vector<double> tip_law_;                        // per particle [m^3]
   double dt_ = 0.0, period_ = 0.0, end_ = 0.0, acceleration_ = 1.0;
   std::uint64_t steps_ = 0, total_steps_ = 0, steps_per_output_ = 1;
   std::function<void(const Simulation&)> observer_;
-  std::vector<double> stiffness_ratio_;  // quasi_static: of each particle's contact, to Hertz's
-  double worst_damping_ = 0.0;           // largest 2 g + W met
-  std::vector<double> energy_limit_;     // kinetic, of each particle: none that moves rightly has it [J]
+  std::vector<double>
+      stiffness_ratio_;         // quasi_static: of each particle's contact, to Hertz's; 0: not measured yet
+  double worst_damping_ = 0.0;  // largest 2 g + W met
+  std::vector<double> energy_limit_;  // kinetic, of each particle: none that moves rightly has it [J]
 };
 
 /// Resolves a duration to seconds. @throws InputError when it is in revolutions and nothing turns

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "abradem/contact/candidate_kernels.h"
 #include "abradem/geometry/closest_point.h"
 
 namespace abradem::simulation {
@@ -41,6 +42,7 @@ void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
 }
 
 void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
+  centre_ = c;
   if (wall.is_plane()) {
     touches_.clear();
     touch_plane(wall, c, R, pair);
@@ -51,7 +53,7 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
   touches_.clear();
 
   if (wall.setup().contact == ContactRule::patch) {
-    const auto patches = patches_.evaluate(candidates_, c, R, pair);
+    const auto patches = patches_.evaluate(candidates_, c, R, pair, tip_);
     for (std::size_t i = 0; i < patches.size(); ++i) {
       const contact::Patch& p = patches[i];
       if (!(p.elastic_force > 0.0)) continue;
@@ -68,7 +70,7 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
   } else {
     const bool resolved = wall.setup().contact == ContactRule::resolved;
     const auto points =
-        resolved ? points_.resolved(candidates_, c, R) : points_.per_triangle(candidates_, c, R);
+        resolved ? points_.resolved(candidates_, c, R, tip_) : points_.per_triangle(candidates_, c, R, tip_);
     for (const contact::PointContact& p : points)
       touches_.push_back({.n = p.n,
                           .point = p.point,
@@ -85,7 +87,8 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
 
 void SphereWall::touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
   const MeshSetup& plane = wall.setup().mesh;
-  const double overlap = R - dot(c - plane.position, plane.normal);
+  double overlap = R - dot(c - plane.position, plane.normal);
+  if (tip_.worn()) overlap = tip_.overlap((overlap - R) * plane.normal, R);
   if (overlap <= 0.0) return;
   touches_.push_back({.n = plane.normal,
                       .point = c - R * plane.normal,
@@ -159,15 +162,8 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
     return;
   }
 
-  std::span<const char> mask;
-  const bool resolved = wall.setup().contact == ContactRule::resolved;
-  const std::span<const int> parts = resolved ? points_.sets() : patches_.clusters();
-  if (!parts.empty()) {
-    mask_.resize(candidates_.triangle_count());
-    for (std::size_t t = 0; t < mask_.size(); ++t) mask_[t] = parts[t] == touch.part;
-    mask = mask_;
-  }
-  const wear::OverlapField field{resolved ? points_.node_excess() : patches_.node_excess(), R, touch.deepest};
+  const std::span<const char> mask = mask_of(wall, touch.part);
+  const wear::OverlapField field = overlap_field(wall, R, touch.deepest);
   const wear::FootprintShares& shares =
       wall.setup().footprint == Footprint::hertz
           ? footprint_.hertz(candidates_, field, contact::hertz_overlap(pair, R, touch.force.F_n), paper,
@@ -181,7 +177,7 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
         surface.deposit_element(candidates_.triangle[t], scale * w);
   } else if (shares.nodal) {
     node_pending_.resize(candidates_.x.size());
-    for (std::size_t i = 0; i < candidates_.node_count(); ++i) {
+    for (std::size_t i = 0; i < shares.at_node.size(); ++i) {
       if (!(shares.at_node[i] > 0.0)) continue;
       const double volume = scale * shares.at_node[i];
       node_pending_[i] += volume;
@@ -195,15 +191,122 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
   }
 }
 
+/// Triangles of one contact (0: not of it); empty: all.
+std::span<const char> SphereWall::mask_of(const Wall& wall, int part) {
+  const bool resolved = wall.setup().contact == ContactRule::resolved;
+  const std::span<const int> parts = resolved ? points_.sets() : patches_.clusters();
+  if (parts.empty() || wall.setup().contact == ContactRule::per_triangle) return {};
+  mask_.resize(candidates_.triangle_count());
+  for (std::size_t t = 0; t < mask_.size(); ++t) mask_[t] = parts[t] == part;
+  return mask_;
+}
+
+wear::OverlapField SphereWall::overlap_field(const Wall& wall, double R, double deepest) const {
+  const bool patch = wall.setup().contact == ContactRule::patch;
+  return {patch ? patches_.node_excess() : points_.node_excess(), R,      deepest, tip_,
+          patch ? patches_.raw_excess() : points_.raw_excess(),   centre_};
+}
+
+const std::vector<SphereWall::Spot>& SphereWall::find_spots(const Wall& wall) {
+  spots_.clear();
+  const bool as_one = wall.setup().contact == ContactRule::per_triangle && !wall.is_plane();
+  for (const Touch& touch : touches_) {
+    const double force = std::max(touch.force.F_n, 0.0);
+    if (!(force > 0.0)) continue;
+    if (spots_.empty() || !as_one) spots_.push_back({{}, 0.0, 0.0, touch.part});
+    Spot& spot = spots_.back();
+    spot.n += force * touch.n;
+    spot.force += force;
+    spot.deepest = std::max(spot.deepest, touch.deepest);
+  }
+  for (Spot& spot : spots_) spot.n = normalized(spot.n);
+  return spots_;
+}
+
+/// Takes the pending wear off the tip, in pieces so small that the pressure hardly changes in one. It is
+/// shared out by the pressure of this moment for all that came since the last time. Where the tip just rides
+/// on a bump, all but one piece waits for a place with more of it under load, unless an output is due.
+void SphereWall::shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair,
+                           bool due) {
+  constexpr double kBatch = 0.02, kPiece = 0.05;  // of the Hertz approach, in mean recession
+  constexpr int kMostPieces = 30;
+  const double R = tip.radius();
+  const std::vector<Spot>& all = find_spots(wall);
+  double force = 0.0, area = 0.0, batch = 0.0, left = 0.0;
+  for (const Spot& spot : all) force += spot.force;
+  if (!(force > 0.0)) return;
+  for (const Spot& spot : all) {
+    const double d_e = contact::hertz_overlap(pair, R, spot.force);
+    double volume = tip_pending_ * (spot.force / force);
+    for (int piece = 0; piece < kMostPieces && volume > 0.0; ++piece) {
+      press(tip, wall, spot, wall.setup().footprint == Footprint::overlap ? 0.0 : d_e);
+      const double part = std::min(volume, kPiece * d_e * tip.pressed_area());
+      tip.wear(part);
+      volume -= part;
+      if (!due && tip.pressed_area() < 0.5 * tip_area_) break;
+    }
+    left += volume;
+    area += tip.pressed_area();
+    batch += kBatch * d_e * tip.pressed_area();
+  }
+  tip_pending_ = left;
+  tip_area_ = std::max(area, 0.9 * tip_area_);
+  tip_batch_ = batch;
+}
+
+void SphereWall::press(wear::WearingTip& tip, const Wall& wall, const Spot& spot, double d_e) {
+  const double R = tip.radius();
+  if (wall.is_plane()) {
+    const MeshSetup& plane = wall.setup().mesh;
+    tip.press_on_plane({{{}, R, spot.deepest, tip_, {}, centre_}, tip_, d_e},
+                       dot(centre_ - plane.position, plane.normal), plane.normal, -R * spot.n);
+  } else {
+    tip.press_on(candidates_, {overlap_field(wall, R, spot.deepest), tip_, d_e, mask_of(wall, spot.part)},
+                 -R * spot.n);
+  }
+}
+
+void SphereWall::plough(Wall& wall, const wear::Ploughing& ploughing, const Displaced& displaced, double R,
+                        const contact::PairProperties& pair) {
+  unpiled_ += displaced.volume;
+  slid_ += displaced.way;
+  const std::vector<Spot>& now = find_spots(wall);
+  if (!now.empty()) {
+    ploughing_.clear();
+    for (const Spot& spot : now) {
+      const Vec3 forward = normalized(displaced.v - dot(displaced.v, spot.n) * spot.n);
+      ploughing_.push_back(
+          {{centre_, R, tip_, spot.n, forward, spot.deepest, contact::hertz_overlap(pair, R, spot.force)},
+           spot.force});
+    }
+  }
+  if (unpiled_ == 0.0 || ploughing_.empty()) return;
+  double length = ridges_.half_length(), force = 0.0;
+  for (const auto& [contact, F_n] : ploughing_) {
+    length = std::max(length, contact::contact_radius(R, contact.d_e));
+    force += F_n;
+  }
+  if (!displaced.due && !now.empty() && slid_ < displaced.spacing * length) return;
+  double left = 0.0;
+  for (const auto& [contact, F_n] : ploughing_) {
+    const double share = unpiled_ * (F_n / force);
+    left += contact.forward == Vec3{}
+                ? share
+                : ridges_.pile_up(wall.surface(), wall.view(), contact, ploughing, share);
+  }
+  unpiled_ = left;
+  slid_ = 0.0;
+}
+
 /// What fell to a node was lost by the triangles around it, each by its part of the node's area.
 void SphereWall::book_elements(Wall& wall) {
   if (node_pending_.empty()) return;
+  for (std::size_t i = 0; i < candidates_.node_count(); ++i) node_pending_[i] /= candidates_.node_area[i];
   for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
-    double volume = 0.0;
-    for (const std::int32_t v : {candidates_.v0[t], candidates_.v1[t], candidates_.v2[t]})
-      volume += node_pending_[at(v)] / candidates_.node_area[at(v)];
-    if (volume > 0.0)
-      wall.surface().book_element(candidates_.triangle[t], volume * candidates_.area[t] / 3.0);
+    const double depths = node_pending_[at(candidates_.v0[t])] + node_pending_[at(candidates_.v1[t])] +
+                          node_pending_[at(candidates_.v2[t])];
+    if (depths > 0.0)
+      wall.surface().book_element(candidates_.triangle[t], depths * candidates_.area[t] / 3.0);
   }
   node_pending_.clear();
 }
@@ -252,32 +355,37 @@ double SphereWall::pending_volume() const noexcept {
 /// Adds what the centroids of the elements in contact have moved since they were last noted.
 void SphereWall::add_centroid_motion(const Wall& wall) {
   if (wall.setup().deformation != DeformationRule::conserving) return;
-  const auto touched = [&](std::size_t t) {
-    if (wall.setup().contact == ContactRule::patch) return inside(t);
-    return std::ranges::any_of(touches_,
-                               [&](const Touch& touch) { return touch.part == static_cast<int>(t); });
-  };
   const geometry::TriangleMesh& mesh = wall.surface().mesh();
   bool moved = false;
   for (std::size_t i = 0; i < noted_.size(); ++i) {
     const Vec3& now = mesh.vertices[at(candidates_.node[i])];
-    motion_[i] = now - noted_[i];
+    const Vec3 motion = now - noted_[i];
     noted_[i] = now;
-    moved = moved || motion_[i] != Vec3{};
+    dx_[i] = motion.x, dy_[i] = motion.y, dz_[i] = motion.z;
+    moved = moved || motion != Vec3{};
   }
   if (!moved) return;
+  if (wall.setup().contact == ContactRule::patch) {
+    centroid_volume_ += contact::kernels::centroid_motion(candidates_, patches_.node_excess(), dx_.data(),
+                                                          dy_.data(), dz_.data(), terms_);
+    return;
+  }
   for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
-    const Vec3 sum =
-        motion_[at(candidates_.v0[t])] + motion_[at(candidates_.v1[t])] + motion_[at(candidates_.v2[t])];
-    if (sum != Vec3{} && touched(t)) centroid_volume_ += norm(sum) * candidates_.area[t] / 3.0;
+    const auto of_touch = [&](const Touch& touch) { return touch.part == static_cast<int>(t); };
+    if (std::ranges::none_of(touches_, of_touch)) continue;
+    const auto sum = [&](const std::vector<double>& d) {
+      return d[at(candidates_.v0[t])] + d[at(candidates_.v1[t])] + d[at(candidates_.v2[t])];
+    };
+    centroid_volume_ += norm(Vec3{sum(dx_), sum(dy_), sum(dz_)}) * candidates_.area[t] / 3.0;
   }
 }
 
 /// Does the ball hold a corner of the candidate triangle?
 bool SphereWall::inside(std::size_t t) const noexcept {
   const auto excess = patches_.node_excess();
-  return excess[at(candidates_.v0[t])] > 0.0 || excess[at(candidates_.v1[t])] > 0.0 ||
-         excess[at(candidates_.v2[t])] > 0.0;
+  const double e0 = excess[at(candidates_.v0[t])], e1 = excess[at(candidates_.v1[t])],
+               e2 = excess[at(candidates_.v2[t])];
+  return std::max({e0, e1, e2}) > 0.0;
 }
 
 int SphereWall::elements(const Wall& wall) const {
@@ -303,15 +411,17 @@ geometry::Index SphereWall::nearest_triangle(const Vec3& c) const noexcept {
 
 void SphereWall::note_nodes() {
   noted_.resize(candidates_.node_count());
-  motion_.resize(noted_.size());
+  for (auto* array : {&dx_, &dy_, &dz_}) array->assign(candidates_.x.size(), 0.0);
   for (std::size_t i = 0; i < noted_.size(); ++i) noted_[i] = candidates_.node_position(i);
 }
 
 bool SphereWall::restore(const Wall& wall) {
+  for (Pressing& pressing : ploughing_) pressing.contact.tip.shape = tip_.shape;
+  patches_.restore(tip_);
   if (wall.is_plane()) return true;
-  motion_.resize(noted_.size());
   if (!candidates_.restore(wall.surface().mesh())) return false;
   const std::size_t nodes = candidates_.node_count(), padded = candidates_.x.size();
+  for (auto* array : {&dx_, &dy_, &dz_}) array->assign(padded, 0.0);
   return (noted_.empty() || noted_.size() == nodes) &&
          (node_pending_.empty() || node_pending_.size() == padded) &&
          (patches_.node_excess().empty() || patches_.node_excess().size() == padded);
@@ -319,6 +429,8 @@ bool SphereWall::restore(const Wall& wall) {
 
 void SphereWall::add_to(core::StateHash& hash) const {
   for (const Memory& m : memory_) hash.add(m.history.s);
+  if (tip_pending_ != 0.0) hash.add(tip_pending_);
+  if (unpiled_ != 0.0) hash.add(unpiled_);
 }
 
 double SphereWall::take_centroid_volume(const Wall& wall) {

@@ -9,6 +9,8 @@
 #include "abradem/simulation/wall.h"
 #include "abradem/wear/archard.h"
 #include "abradem/wear/footprint.h"
+#include "abradem/wear/ridges.h"
+#include "abradem/wear/wearing_tip.h"
 
 namespace abradem::simulation {
 
@@ -83,6 +85,38 @@ class SphereWall {
     return volume;
   }
 
+  /// The sphere's worn end as this wall sees it now, for the next find.
+  void set_tip(const contact::Tip& tip) noexcept { tip_ = tip; }
+  /// Books the sphere's own wear of one step and, when enough has come together to matter or an output is
+  /// `due`, takes it off the tip where the contacts press. Returns the law's volume [m^3].
+  template <typename SlipOf>
+  double wear_tip(wear::WearingTip& tip, const Wall& wall, double alpha_s,
+                  const contact::PairProperties& pair, bool due, SlipOf&& slip_of) {
+    double volume = 0.0;
+    for (const Touch& touch : touches_)
+      volume += wear::archard_volume(alpha_s, {std::max(touch.force.F_n, 0.0), slip_of(touch)});
+    tip_pending_ += volume;
+    if (due || tip_pending_ > tip_batch_) shape_tip(tip, wall, pair, due);
+    return volume;
+  }
+  /// Wear of the tip not yet taken off [m^3].
+  [[nodiscard]] double tip_pending() const noexcept { return tip_pending_; }
+
+  /// How a step ploughs: what leaves the groove and is not lost, and how the sphere slides.
+  struct Displaced {
+    double volume = 0.0;   ///< of this step [m^3]
+    Vec3 v;                ///< velocity of the sphere over the wall, in the wall's frame [m/s]
+    double way = 0.0;      ///< slid in this step [m]
+    double spacing = 1.0;  ///< of the piles, in half-lengths of the contact
+    bool due = false;      ///< pile up now
+  };
+  /// Books what a step displaced and piles it up beside the contact, when it has slid far enough since the
+  /// last pile, has parted, or an output is due.
+  void plough(Wall& wall, const wear::Ploughing& ploughing, const Displaced& displaced, double R,
+              const contact::PairProperties& pair);
+  /// Displaced and not yet piled up [m^3].
+  [[nodiscard]] double unpiled_volume() const noexcept { return unpiled_; }
+
   [[nodiscard]] const std::vector<Touch>& touches() const noexcept { return touches_; }
   [[nodiscard]] std::vector<Touch>& touches() noexcept { return touches_; }
   [[nodiscard]] const contact::MeshCandidates& candidates() const noexcept { return candidates_; }
@@ -116,8 +150,11 @@ class SphereWall {
     archive("touches", self.touches_)("memory", self.memory_)("node_pending", self.node_pending_);
     archive("noted_at", self.noted_at_)("noted", self.noted_)("axis", self.axis_);
     archive("centroid_volume", self.centroid_volume_);
+    archive("tip_pending", self.tip_pending_)("tip_batch", self.tip_batch_)("tip_area", self.tip_area_);
+    archive("ridges", self.ridges_);
+    archive("unpiled", self.unpiled_)("slid", self.slid_)("ploughing", self.ploughing_);
   }
-  /// @return whether what was loaded fits the wall
+  /// @return whether what was loaded fits the wall; the tip must have been set
   [[nodiscard]] bool restore(const Wall& wall);
 
  private:
@@ -132,6 +169,27 @@ class SphereWall {
       archive("n", self.n)("point", self.point)("key", self.key)("history", self.history);
     }
   };
+  struct Pressing {
+    wear::PloughingContact contact;
+    double force = 0.0;  // [N]
+
+    template <typename Self, typename Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive("contact", self.contact)("force", self.force);
+    }
+  };
+  /// Part of what the sphere presses: a contact, or under `per_triangle` all of them as one.
+  struct Spot {
+    Vec3 n;
+    double deepest = 0.0;  // [m]
+    double force = 0.0;    // [N]
+    int part = 0;
+  };
+  const std::vector<Spot>& find_spots(const Wall& wall);
+  [[nodiscard]] std::span<const char> mask_of(const Wall& wall, int part);
+  [[nodiscard]] wear::OverlapField overlap_field(const Wall& wall, double R, double deepest) const;
+  void shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair, bool due);
+  void press(wear::WearingTip& tip, const Wall& wall, const Spot& spot, double d_e);
   void deposit_one(Wall& wall, const Touch& touch, double dV, double R, const contact::PairProperties& pair);
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
   contact::TangentialHistory& recall(const Touch& touch, ContactRule rule);
@@ -144,6 +202,7 @@ class SphereWall {
   contact::PointContactFinder points_;
   wear::FootprintIntegrator footprint_;
   std::vector<Touch> touches_;
+  std::vector<Spot> spots_;
   std::vector<Memory> memory_, kept_;
   std::vector<char> mask_;
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
@@ -153,7 +212,16 @@ class SphereWall {
   Vec3 noted_at_;
   Vec3 axis_;  // towards the surface, from the last contact
   double centroid_volume_ = 0.0;
-  std::vector<Vec3> noted_, motion_;  // of each candidate node: where it was when last noted; since then
+  contact::Tip tip_;
+  Vec3 centre_;                                 // of the last search
+  double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
+  double tip_area_ = 0.0;                       // of the tip under pressure, of late [m^2]
+  wear::RidgeBuilder ridges_;
+  double unpiled_ = 0.0, slid_ = 0.0;  // since the last pile [m^3, m]
+  std::vector<Pressing> ploughing_;    // the last contacts
+  std::vector<Vec3> noted_;            // of each candidate node: where it was when last noted
+  std::vector<double> dx_, dy_, dz_;   // its motion since then, padded [m]
+  std::vector<double> terms_;          // scratch
 };
 
 }  // namespace abradem::simulation

@@ -15,9 +15,12 @@ void Simulation::visit(Self& self, Archive& archive) {
   archive("steps", self.steps_)("dt", self.dt_)("steps_per_output", self.steps_per_output_);
   archive.fixed("position", self.particles_.position).fixed("velocity", self.particles_.velocity);
   archive.fixed("spin", self.particles_.spin);
-  archive.fixed("law", self.law_).fixed("paper", self.paper_);
+  archive.fixed("law", self.law_).fixed("paper", self.paper_).fixed("displaced", self.displaced_);
   for (auto& wall : self.walls_)
     if (!wall.is_plane()) archive("surface", wall.surface());
+  for (auto& tip : self.tips_)
+    if (tip) archive("tip", *tip);
+  archive.fixed("tip_law", self.tip_law_);
   archive.fixed("sphere_walls", self.sphere_walls_).fixed("sphere_pairs", self.sphere_pairs_);
   archive.fixed("stiffness_ratio", self.stiffness_ratio_)("worst_damping", self.worst_damping_);
 }
@@ -32,11 +35,15 @@ void Simulation::load(core::ArchiveReader& archive) {
                       std::ranges::all_of(particles_.velocity, is_finite) &&
                       std::ranges::all_of(particles_.spin, is_finite),
                   "belongs to particles that are nowhere");
+  for (const Wall& wall : walls_)
+    archive.require(wall.is_plane() || wall.surface().restored(),
+                    "belongs to piles that do not fit the wall");
+  for (auto& tip : tips_) archive.require(!tip || tip->restored(), "belongs to a worn tip that is no map");
+  total_steps_ = static_cast<std::uint64_t>(std::llround(end_ / dt_));
+  move_walls();
   for (std::size_t k = 0; k < sphere_walls_.size(); ++k)
     archive.require(sphere_walls_[k].restore(walls_[k % walls_.size()]),
                     "belongs to candidates that do not fit the wall");
-  total_steps_ = static_cast<std::uint64_t>(std::llround(end_ / dt_));
-  move_walls();
 }
 
 }  // namespace abradem::simulation

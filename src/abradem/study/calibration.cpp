@@ -546,6 +546,10 @@ double PublishedFit::revolutions(double volume) const noexcept {
   return (-a1 + std::sqrt(a1 * a1 - 4.0 * a2 * c)) / (2.0 * a2);
 }
 
+double PublishedFit::volume(double revolutions) const noexcept {
+  return 1e-9 * (a0 + revolutions * (a1 + revolutions * a2));
+}
+
 std::span<const PublishedFit> published_fits() noexcept {
   static constexpr std::array fits{
       PublishedFit{13, 1e-11, 0.001, 0.012, 0.0008}, PublishedFit{14, 1.5e-11, 0.006, 0.023, 0.001},

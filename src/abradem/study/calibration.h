@@ -125,6 +125,8 @@ struct PublishedFit {
   int equation;
   double wear_coefficient;  ///< [1/Pa]
   double a0, a1, a2;
+  /// Volume after so many revolutions [m^3].
+  [[nodiscard]] double volume(double revolutions) const noexcept;
   /// Revolutions at which it reaches a volume [m^3].
   [[nodiscard]] double revolutions(double volume) const noexcept;
 };

@@ -43,10 +43,7 @@ ABRADEM_INLINE double nodes(std::size_t padded_count, const double* __restrict e
                             const double* __restrict area, double* __restrict load, const Weight weight) {
   for (std::size_t i = 0; i < padded_count; ++i)
     load[i] = area[i] * weight.of_depth(shallow_depth(excess[i]));
-  core::Lanes sum{};
-  const auto lanes = [](const double* p) { return reinterpret_cast<const core::Lanes*>(p); };
-  for (std::size_t i = 0; i < padded_count; i += MeshCandidates::kLanes) sum += *lanes(load + i);
-  return ABRADEM_SUM_LANES(sum);
+  return core::sum_lanes(load, padded_count);
 }
 
 ABRADEM_DISPATCH double load_nodes(std::size_t padded_count, const double* __restrict excess,
@@ -85,14 +82,19 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
   constexpr double kEdgesPerReach = 2.5;
   constexpr double kShallow = 0.03;  // of R: there the series of shallow_depth errs by less than 1e-8
   const double edges = reach / std::sqrt(candidates.longest_edge2);
+  // A worn tip touches over more than that radius: as many nodes as such a disc holds are enough.
+  constexpr std::ptrdiff_t kEnoughNodes = 20;
+  const bool worn = !field.raw.empty();
   shares_.nodal =
-      edges >= kEdgesPerReach && field.deepest < kShallow * field.R && !by_elements && mask.empty();
+      (edges >= kEdgesPerReach || worn) && field.deepest < kShallow * field.R && !by_elements && mask.empty();
   if (shares_.nodal) {
-    at_node_.resize(candidates.x.size());
+    at_node_.resize(MeshCandidates::count_above(field.excess, cut));
     shares_.total = load_nodes(at_node_.size(), field.excess.data(), candidates.node_area.data(),
                                at_node_.data(), weight);
     shares_.at_node = at_node_;
-    if (shares_.total > 0.0) return shares_;
+    const bool enough = edges >= kEdgesPerReach ||
+                        std::ranges::count_if(at_node_, [](double w) { return w > 0.0; }) >= kEnoughNodes;
+    if (shares_.total > 0.0 && enough) return shares_;
     shares_.nodal = false;
   }
 
@@ -104,10 +106,23 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
   constexpr int kFinest = 48;
   const int parts = std::clamp(static_cast<int>(std::ceil(2.0 * kEdgesPerReach / edges)), 2, kFinest);
   const auto masked_out = [&](std::size_t t) { return !mask.empty() && mask[t] == 0; };
+  // The excess of a worn tip at a point of triangle t, from that of the sphere as new.
+  const auto worn_excess_of = [&](std::size_t t) {
+    const auto p = [&](std::int32_t v) {
+      return candidates.node_position(static_cast<std::size_t>(v)) - field.c;
+    };
+    return [&, p0 = p(candidates.v0[t]), p1 = p(candidates.v1[t]), p2 = p(candidates.v2[t])](
+               double e, double b0, double b1, double b2) {
+      return field.tip.excess(e, b0 * p0 + b1 * p1 + b2 * p2, field.R);
+    };
+  };
   shares_.total = 0.0;
   for (std::size_t t = 0; t < n; ++t) {
     if (bound(candidates, field, t) <= cut || masked_out(t)) continue;
-    subdivide(candidates, field, t, parts, weight);
+    if (worn)
+      subdivide(candidates, field, t, parts, weight, worn_excess_of(t));
+    else
+      subdivide(candidates, field, t, parts, weight, [](double e, double, double, double) { return e; });
     shares_.total += (at0_[t] + at1_[t]) + at2_[t];
   }
   if (!(shares_.total > 0.0) && n > 0) {
@@ -135,29 +150,33 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
 /// No point of triangle t has a larger excess: squared distances are convex.
 double FootprintIntegrator::bound(const MeshCandidates& candidates, const OverlapField& field,
                                   std::size_t t) noexcept {
-  return std::max({field.excess[static_cast<std::size_t>(candidates.v0[t])],
-                   field.excess[static_cast<std::size_t>(candidates.v1[t])],
-                   field.excess[static_cast<std::size_t>(candidates.v2[t])]}) +
+  const std::span<const double> excess = field.raw.empty() ? field.excess : field.raw;
+  return std::max({excess[static_cast<std::size_t>(candidates.v0[t])],
+                   excess[static_cast<std::size_t>(candidates.v1[t])],
+                   excess[static_cast<std::size_t>(candidates.v2[t])]}) +
          candidates.longest[t] / (3.0 * field.R * field.R);
 }
 
-/// Centroid rule on parts^2 equal parts of triangle t.
-template <typename Weight>
+/// Centroid rule on parts^2 equal parts of triangle t. @param excess_of (excess of the sphere as new at a
+/// point, its barycentric coordinates) -> excess of the sphere as it is
+template <typename Weight, typename ExcessOf>
 void FootprintIntegrator::subdivide(const MeshCandidates& candidates, const OverlapField& field,
-                                    std::size_t t, int parts, const Weight& weight) {
+                                    std::size_t t, int parts, const Weight& weight,
+                                    const ExcessOf& excess_of) {
+  const std::span<const double> excess = field.raw.empty() ? field.excess : field.raw;
   const double inverse = 1.0 / (field.R * field.R);
   const double l01 = candidates.l01[t] * inverse, l12 = candidates.l12[t] * inverse,
                l20 = candidates.l20[t] * inverse;
-  const double e0 = field.excess[static_cast<std::size_t>(candidates.v0[t])];
-  const double e1 = field.excess[static_cast<std::size_t>(candidates.v1[t])];
-  const double e2 = field.excess[static_cast<std::size_t>(candidates.v2[t])];
+  const double e0 = excess[static_cast<std::size_t>(candidates.v0[t])];
+  const double e1 = excess[static_cast<std::size_t>(candidates.v1[t])];
+  const double e2 = excess[static_cast<std::size_t>(candidates.v2[t])];
   double sum0 = 0.0, sum1 = 0.0, sum2 = 0.0;
   const double third = 1.0 / 3.0, step = 1.0 / parts;
   const auto add = [&](double b1, double b2) {
     const double b0 = 1.0 - b1 - b2;
     // Along a line the excess is a parabola of curvature -2.
     const double e = b0 * e0 + b1 * e1 + b2 * e2 + b0 * b1 * l01 + b1 * b2 * l12 + b2 * b0 * l20;
-    const double w = weight(e);
+    const double w = weight(excess_of(e, b0, b1, b2));
     sum0 += w * b0;
     sum1 += w * b1;
     sum2 += w * b2;

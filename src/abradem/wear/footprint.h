@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "abradem/contact/mesh_candidates.h"
+#include "abradem/contact/tip_shape.h"
 
 namespace abradem::wear {
 
@@ -17,7 +18,7 @@ namespace abradem::wear {
 /// functions of its three vertices (`at0` … `at2`), integrated over parts of the triangle.
 struct FootprintShares {
   bool nodal = false;
-  std::span<const double> at_node;  ///< per candidate node, padded
+  std::span<const double> at_node;  ///< of the first candidate nodes; the others have no load
   std::size_t count = 0;
   std::span<const double> at0, at1, at2;  ///< per candidate triangle
   double total = 0.0;                     ///< sum of all
@@ -29,6 +30,11 @@ struct OverlapField {
   std::span<const double> excess;  ///< 1 - |x - c|^2 / R^2 of each candidate node, padded
   double R = 0.0;                  ///< [m]
   double deepest = 0.0;            ///< largest overlap g in the patch [m]
+  /// A worn tip: `excess` is its own, `raw` that of the sphere as new (empty: it is as new), c the sphere's
+  /// centre.
+  contact::Tip tip{};
+  std::span<const double> raw{};
+  Vec3 c{};
 };
 
 /// Distributes wear by a pressure that depends on the local overlap g alone. docs/theory/wear.md#footprint
@@ -51,9 +57,9 @@ class FootprintIntegrator {
                                    const Weight& weight);
   [[nodiscard]] static double bound(const contact::MeshCandidates& candidates, const OverlapField& field,
                                     std::size_t t) noexcept;
-  template <typename Weight>
+  template <typename Weight, typename ExcessOf>
   void subdivide(const contact::MeshCandidates& candidates, const OverlapField& field, std::size_t t,
-                 int parts, const Weight& weight);
+                 int parts, const Weight& weight, const ExcessOf& excess_of);
 
   FootprintShares shares_;
   std::vector<double> at_node_, at0_, at1_, at2_;

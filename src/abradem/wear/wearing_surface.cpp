@@ -140,44 +140,63 @@ void WearingSurface::watch(Index v, double distance) noexcept {
 
 void WearingSurface::displace(Index v, double distance) noexcept {
   const std::size_t i = at(v);
-  watch(v, distance);
+  watch(v, std::abs(distance));
   sink_[i] += distance;
-  deepest_sink_ = std::max(deepest_sink_, sink_[i]);
+  deepest_sink_ = std::max(deepest_sink_, std::abs(sink_[i]));
   mesh_.vertices[i] = reference_[i] - sink_[i] * direction_[i];
 }
 
+void WearingSurface::raise_vertex(Index vertex, double volume) {
+  if (piled_.empty()) piled_.assign(mesh_.vertices.size(), 0.0);
+  double& piled = piled_[at(vertex)];
+  if (piled == 0.0 && volume > 0.0) touched_piles_.push_back(vertex);
+  piled += volume;
+  const double y = volume - raised_lost_, sum = raised_ + y;  // Kahan
+  raised_lost_ = (sum - raised_) - y;
+  raised_ = sum;
+}
+
 void WearingSurface::deform_conserving() {
-  if (touched_.empty()) return;
+  if (touched_.empty() && touched_piles_.empty()) return;
+  odometer_ += move_by_volume(touched_, pending_, 1.0);
+  odometer_ += move_by_volume(touched_piles_, piled_, -1.0);
+  ++revision_;
+}
+
+/// Moves vertices by the volumes that wait at them: in (sign 1) or out (-1). Returns the furthest way [m].
+double WearingSurface::move_by_volume(std::vector<Index>& vertices, std::vector<double>& pending,
+                                      double sign) {
   double furthest = 0.0;
   if (flat_) {
-    for (const Index v : touched_) {
-      const double distance = pending_[at(v)] * inverse_area_[at(v)];
-      displace(v, distance);
+    for (const Index v : vertices) {
+      const double distance = pending[at(v)] * inverse_area_[at(v)];
+      displace(v, sign * distance);
       furthest = std::max(furthest, distance);
-      swept_by_updates_ += pending_[at(v)];
-      pending_[at(v)] = 0.0;
+      swept_by_updates_ += sign * pending[at(v)];
+      pending[at(v)] = 0.0;
     }
   } else {
-    std::ranges::sort(touched_);
+    std::ranges::sort(vertices);
     std::vector<double> distance;
-    for (const auto& patch : connected_patches(mesh_, stars_, touched_)) {
-      close_volume(patch, distance);
+    for (const auto& patch : connected_patches(mesh_, stars_, vertices)) {
+      for (const Index v : patch) pending[at(v)] *= sign;
+      close_volume(patch, pending, distance);
       for (std::size_t i = 0; i < patch.size(); ++i) {
         displace(patch[i], distance[i]);
-        furthest = std::max(furthest, distance[i]);
+        furthest = std::max(furthest, std::abs(distance[i]));
         border_moved_ = border_moved_ || open_border_[at(patch[i])] != 0;
-        pending_[at(patch[i])] = 0.0;
+        pending[at(patch[i])] = 0.0;
       }
     }
   }
-  touched_.clear();
-  odometer_ += furthest;
-  ++revision_;
+  vertices.clear();
+  return furthest;
 }
 
 /// Finds the distances by which a patch's vertices must sink so that it sweeps its pending volume exactly:
 /// s_i = V_i / (m_i . b_i) to first order, then one common factor tau from the cubic of the swept volume.
-void WearingSurface::close_volume(std::span<const Index> vertices, std::vector<double>& distance) {
+void WearingSurface::close_volume(std::span<const Index> vertices, std::span<const double> pending,
+                                  std::vector<double>& distance) {
   distance.assign(vertices.size(), 0.0);
   double target = 0.0;
   std::vector<Index> triangles;
@@ -193,8 +212,8 @@ void WearingSurface::close_volume(std::span<const Index> vertices, std::vector<d
       guards_.worst_triangle = stars_[v].front();
       projected = std::numeric_limits<double>::infinity();
     }
-    distance[i] = pending_[at(v)] / projected;
-    target += pending_[at(v)];
+    distance[i] = pending[at(v)] / projected;
+    target += pending[at(v)];
   }
   std::ranges::sort(triangles);
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
@@ -299,7 +318,7 @@ std::vector<Index> WearingSurface::worn_triangles() const {
   std::vector<Index> worn;
   for (Index t = 0; t < mesh_.triangle_count(); ++t) {
     const Triangle& v = mesh_.triangles[at(t)];
-    if (sink_[at(v[0])] > 0.0 || sink_[at(v[1])] > 0.0 || sink_[at(v[2])] > 0.0) worn.push_back(t);
+    if (sink_[at(v[0])] != 0.0 || sink_[at(v[1])] != 0.0 || sink_[at(v[2])] != 0.0) worn.push_back(t);
   }
   return worn;
 }

@@ -62,12 +62,21 @@ class WearingSurface {
   /// The same in two parts: what falls to a vertex now, and what an element has lost, for the record only.
   void deposit_at_vertex(Index vertex, double volume) { add_to_vertex(vertex, volume); }
   void book_element(Index triangle, double volume) { volume_[static_cast<std::size_t>(triangle)] += volume; }
+  /// Books volume that is piled up on a vertex [m^3], >= 0; deform_conserving raises the vertex by it.
+  void raise_vertex(Index vertex, double volume);
+  /// How far a vertex has been raised against its first position, along its first normal; < 0: sunk [m].
+  [[nodiscard]] double height(Index vertex) const noexcept {
+    return -sink_[static_cast<std::size_t>(vertex)];
+  }
+  /// Volume piled up since the start [m^3].
+  [[nodiscard]] double raised_volume() const noexcept { return raised_; }
+
   /// Books wear of one element for the rule of the paper, which knows elements only.
   void deposit_element(Index triangle, double volume);
 
-  /// Moves the vertices so that the surface sweeps what was deposited since the last update. Where the
-  /// surface was flat this is linear and exact by construction; elsewhere one Newton iteration on the exact
-  /// cubic of each connected worn patch closes it to round-off.
+  /// Moves the vertices so that the surface sweeps what was deposited since the last update, then so that it
+  /// gains what was piled up. Where the surface was flat this is linear and exact by construction; elsewhere
+  /// one Newton iteration on the exact cubic of each connected patch closes it to round-off.
   void deform_conserving();
   /// Moves the vertices by eq. 6-9 of the paper.
   /// @return sum of |centroid displacement| * area over the elements worn since the last update [paper, eq.
@@ -97,8 +106,13 @@ class WearingSurface {
     archive.indices("touched_elements", self.touched_elements_, self.volume_.size());
     archive("border_moved", self.border_moved_)("swept_by_updates", self.swept_by_updates_);
     archive("odometer", self.odometer_)("deepest_sink", self.deepest_sink_)("revision", self.revision_);
+    archive("piled", self.piled_);
+    archive.indices("touched_piles", self.touched_piles_, self.piled_.size());
+    archive("raised", self.raised_)("raised_lost", self.raised_lost_);
     archive("guards", self.guards_);
   }
+  /// @return whether what was loaded fits the mesh
+  [[nodiscard]] bool restored() const noexcept { return piled_.empty() || piled_.size() == sink_.size(); }
 
  private:
   void add_to_vertex(Index v, double volume) {
@@ -109,7 +123,9 @@ class WearingSurface {
   void displace(Index v, double distance) noexcept;
   void watch(Index v, double distance) noexcept;
   void watch_orientation(Index t) noexcept;
-  void close_volume(std::span<const Index> vertices, std::vector<double>& distance);
+  void close_volume(std::span<const Index> vertices, std::span<const double> pending,
+                    std::vector<double>& distance);
+  double move_by_volume(std::vector<Index>& vertices, std::vector<double>& pending, double sign);
 
   geometry::TriangleMesh mesh_;
   std::vector<Vec3> reference_;
@@ -120,7 +136,10 @@ class WearingSurface {
   std::vector<double> sink_;          // distance moved against direction_ [m]
   std::vector<double> pending_;       // volume waiting at each vertex [m^3]
   std::vector<Index> touched_;        // vertices with pending volume
-  std::vector<double> volume_;        // per element, in all [m^3]
+  std::vector<double> piled_;         // volume to be piled up at each vertex; empty: there was none yet [m^3]
+  std::vector<Index> touched_piles_;  // vertices with it
+  double raised_ = 0.0, raised_lost_ = 0.0;
+  std::vector<double> volume_;  // per element, in all [m^3]
   std::vector<double> pending_element_;
   std::vector<Index> touched_elements_;
   std::vector<char> open_border_;  // vertex on an open border whose star is not flat

@@ -83,6 +83,15 @@ TEST(RunIn, OfASeriesThatGoesOnChangingIsNotFound) {
   }
 }
 
+TEST(RunIn, OfAChangeBelowTheToleranceIsNone) {
+  // What rounding and a tilting groove leave of a constant rate of wear: a trend of 1e-4, without noise.
+  const auto trend = series(12, 0.0, 0, [](double x) { return 0.047 * (1.0 - 1e-5 * x); });
+  const RunIn r = find_run_in(counted(12), trend);
+  EXPECT_EQ(r.state, RunIn::State::from_start);
+  EXPECT_LT(r.p, 0.05);  // and yet it is seen
+  EXPECT_EQ(find_run_in(counted(12), trend, {.drift_tolerance = 1e-5}).state, RunIn::State::not_steady);
+}
+
 TEST(RunIn, OfACurveEndsWhereTheDriftIsShownToBeSmall) {
   // 1 + exp(-x/3): changes by less than 1 % over what is left from revolution 14 on (exp(-14/3) = 0.0094).
   const RunIn r =

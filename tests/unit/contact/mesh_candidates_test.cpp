@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <set>
 
+#include "abradem/contact/candidate_kernels.h"
 #include "abradem/geometry/closest_point.h"
 #include "support/surfaces.h"
 
@@ -53,6 +55,90 @@ TEST(MeshCandidates, HoldEveryTriangleInReachWhileTheSphereStaysWithinTheSkin) {
       }
     }
   }
+}
+
+TEST(MeshCandidates, HoldEveryTriangleAlongASlideOverAWornSurface) {
+  constexpr double deepest = 15e-6;
+  const Vec3 down{0, 0, -1};
+  core::RandomStream random(22);
+  for (const double degrees : {0.0, 25.0, 90.0, 205.0}) {
+    test::Scene scene(test::jittered_plate(6e-3, 6e-3, 0.15e-3, 0.25, 3));
+    for (Vec3& p : scene.mesh.vertices) p.z -= random.uniform(0.0, deepest);
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const CandidateSkin skin{30e-6, 3e-6, 0.75e-3 * Vec3{std::cos(angle), std::sin(angle), 0.0}};
+    const Vec3 start{0.2e-3, -0.1e-3, R - 40e-6};
+    const SurfaceView view{scene.mesh, scene.grid, 2, 0.0, deepest};
+    scene.candidates.update(view, start, down, R, skin);
+    const std::set<Index> have(scene.candidates.triangle.begin(), scene.candidates.triangle.end());
+    EXPECT_LT(have.size(), scene.mesh.triangles.size() / 3);
+    for (int trial = 0; trial < 25; ++trial) {
+      const Vec3 c = start + random.uniform(0.0, 1.0) * skin.slide + Vec3{0, 0, random.uniform(-3e-6, 3e-6)};
+      EXPECT_FALSE(scene.candidates.stale(view, c, R));
+      for (const Index t : in_reach(scene.mesh, c, R)) EXPECT_TRUE(have.contains(t));
+    }
+  }
+}
+
+TEST(MeshCandidates, MeasureTrianglesAndNodes) {
+  auto rough = test::jittered_plate(4e-3, 4e-3, 0.2e-3, 0.25, 3);
+  test::roughen(rough, 20e-6, 3);
+  test::Scene scene(rough);
+  const Vec3 c{0, 0, R - 40e-6};
+  const MeshCandidates& m = scene.candidates_at(c, R);
+  std::vector<double> node_area(m.node_count());
+  std::vector<Vec3> node_vector(m.node_count());
+  double longest2 = 0.0;
+  for (std::size_t t = 0; t < m.triangle_count(); ++t) {
+    const Vec3 a = geometry::area_vector(rough, m.triangle[t]);
+    EXPECT_NEAR(norm(a - Vec3{m.ax[t], m.ay[t], m.az[t]}), 0.0, 1e-14 * norm(a));
+    EXPECT_NEAR(m.area[t], norm(a), 1e-14 * norm(a));
+    EXPECT_EQ(m.longest[t], std::max({m.l01[t], m.l12[t], m.l20[t]}));
+    longest2 = std::max(longest2, m.longest[t]);
+    for (const auto v : {m.v0[t], m.v1[t], m.v2[t]}) {
+      node_area[static_cast<std::size_t>(v)] += norm(a) / 3.0;
+      node_vector[static_cast<std::size_t>(v)] += a / 3.0;
+    }
+  }
+  EXPECT_EQ(m.longest_edge2, longest2);
+  for (std::size_t i = 0; i < m.node_count(); ++i) {
+    EXPECT_NEAR(m.node_area[i], node_area[i], 1e-14 * node_area[i]);
+    EXPECT_NEAR(norm(node_vector[i] - Vec3{m.bx[i], m.by[i], m.bz[i]}), 0.0, 1e-14 * node_area[i]);
+    EXPECT_GE(dot(m.node_position(i) - m.mean_point, m.mean_normal), -m.below_plane);
+  }
+}
+
+TEST(MeshCandidates, CountTheNodesInFrontThatReachALevel) {
+  const std::vector<double> excess{3, 1, 2, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  EXPECT_EQ(MeshCandidates::count_above(excess, 0.0), 16U);
+  EXPECT_EQ(MeshCandidates::count_above(excess, 1.0), 8U);
+  EXPECT_EQ(MeshCandidates::count_above(excess, 3.0), 0U);
+  EXPECT_EQ(MeshCandidates::count_above(excess, -1.0), 24U);
+}
+
+TEST(MeshCandidates, AddUpHowFarCentroidsInsideTheBallMove) {
+  test::Scene scene(test::jittered_plate(4e-3, 4e-3, 0.2e-3, 0.25, 3));
+  const MeshCandidates& m = scene.candidates_at({0, 0, R - 40e-6}, R);
+  core::RandomStream random(23);
+  std::vector<double> excess(m.x.size(), -1.0), dx(m.x.size()), dy(m.x.size()), dz(m.x.size()), scratch;
+  for (std::size_t i = 0; i < m.node_count(); ++i) {
+    excess[i] = random.uniform(-1.0, 0.2);
+    dx[i] = random.uniform(-1e-7, 1e-7), dy[i] = random.uniform(-1e-7, 1e-7),
+    dz[i] = random.uniform(-1e-6, 0.0);
+  }
+  double volume = 0.0;
+  for (std::size_t t = 0; t < m.triangle_count(); ++t) {
+    Vec3 motion;
+    bool inside = false;
+    for (const auto v : {m.v0[t], m.v1[t], m.v2[t]}) {
+      const auto i = static_cast<std::size_t>(v);
+      motion += Vec3{dx[i], dy[i], dz[i]} / 3.0;
+      inside = inside || excess[i] > 0.0;
+    }
+    if (inside) volume += norm(motion) * m.area[t];
+  }
+  EXPECT_GT(volume, 0.0);
+  EXPECT_NEAR(kernels::centroid_motion(m, excess, dx.data(), dy.data(), dz.data(), scratch), volume,
+              1e-13 * volume);
 }
 
 TEST(MeshCandidates, AreGatheredAnewOutsideTheSkinAndForALongerReach) {

@@ -479,6 +479,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "it misses wall 'disc' by 6 mm sideways, a ring from 20 mm to 24 mm"},
         BadExample{"particle.pin.position=[0,0,\"3 mm\"]", "it misses wall 'disc' by 20 mm sideways"},
         BadExample{"particle.pin.position=[\"22 mm\",0,\"9 mm\"]", "'pin' hangs 6 mm above wall 'disc'"},
+        BadExample{"particle.pin.load=\"1e308 N\"", "the load would press 'pin' through the wall"},
         BadExample{"particle.pin.spin=[0,0,1]", "the guide of 'pin' blocks its spin"},
         BadExample{"wall.disc.motion.rate=0", "revolutions cannot be counted"},
         BadExample{"wall.disc.motion.rate=\"2 Hz\"",
@@ -589,6 +590,10 @@ TEST(Combination, NotesWhatIsAllowedButProbablyNotMeant) {
   EXPECT_TRUE(contains(notes({"wall.disc.deformation=none"}),
                        "note: wear is counted, but no wall changes its shape"));
   EXPECT_TRUE(contains(notes({"particle.pin.load=0"}), "nothing presses 'pin' down"));
+  EXPECT_TRUE(
+      contains(notes({"particle.pin.load=\"20 kN\""}),
+               "the load would press 'pin' 10.28 mm deep into the wall, more than a tenth of its radius"));
+  EXPECT_TRUE(contains(notes({"material.iron_ore.shear_modulus=0.1"}), "check the load (N)"));
   EXPECT_TRUE(contains(notes({"output.every=20 rev"}), "longer than the run"));
   EXPECT_TRUE(contains(notes({"run.increment=50 um"}), "counts only with method = \"quasi_static\""));
 }

@@ -67,5 +67,12 @@ TEST(Deflate, InflatesToTheSameBytes) {
   EXPECT_EQ(back, text);
 }
 
+TEST(Typeset, SetsWholeWordsAlone) {
+  EXPECT_EQ(typeset("alpha n = 8e-10 1/Pa (0.565 -+ 0.1 mm^3), volume 10 um; R2."),
+            "α n = 8e-10 1/Pa (0.565 ± 0.1 mm³), volume 10 µm; R².");
+  EXPECT_EQ(typeset(""), "");
+  EXPECT_EQ(typeset("alphabet, maximum. "), "alphabet, maximum. ");
+}
+
 }  // namespace
 }  // namespace abradem::report

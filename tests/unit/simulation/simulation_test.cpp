@@ -67,6 +67,35 @@ TEST(SetupErrors, AreGivenWithTheReason) {
   EXPECT_NE(changed([](CaseSetup& s) { s.walls[0].mesh.size = -1.0; }), "accepted");
 }
 
+TEST(Run, BalancesTheLoadToTenThousandthsOnARoughDisc) {
+  for (const double shear_modulus : {0.1e9, 5e9}) {
+    test::PinOnDisc pin = small_case();
+    pin.shear_modulus = shear_modulus;
+    pin.friction = 0.0;
+    pin.deformation = DeformationRule::none;
+    pin.size = shear_modulus < 1e9 ? 0.1e-3 : 0.05e-3;
+    const simulation::Setup setup = pin.setup();
+    Simulation run(setup, [](const MeshSetup& mesh, std::uint64_t seed) {
+      geometry::TriangleMesh rough = generate_mesh(mesh, seed);
+      test::roughen(rough, 0.5e-6, 3);
+      return rough;
+    });
+    const contact::PairProperties pair =
+        material::effective_moduli({4850.0, shear_modulus, 0.24}, {7932.0, 78e9, 0.30});
+    contact::PatchEvaluator patches;
+    for (int step = 0; step < 60; ++step) {
+      const geometry::Pose pose = run.walls()[0].pose_at(run.time());
+      run.step();
+      const Vec3 c = pose.to_body(run.particles().position[0]);
+      double carried = 0.0;
+      for (const contact::Patch& patch :
+           patches.evaluate(run.contact(0, 0).candidates(), c, pin.kRadius, pair))
+        carried += patch.elastic_force * patch.n.z;
+      EXPECT_NEAR(carried, pin.kLoad, 1e-4 * pin.kLoad) << "step " << step;
+    }
+  }
+}
+
 TEST(Run, StopsWhereNothingCarriesTheLoad) {
   simulation::Setup s = small_case().setup();
   s.particles[0].position.x = 50e-3;  // beside the disc

@@ -127,6 +127,21 @@ TEST(State, OfParticlesThatMeetGoesOnToTheSameBits) {
   expect_same_bits_from_anywhere(setup, 4000);
 }
 
+TEST(State, OfAWornTipAndOfRidgesGoesOnToTheSameBits) {
+  for (const Method method : {Method::dynamic, Method::quasi_static}) {
+    test::PinOnDisc pin = small_case();
+    pin.method = method;
+    simulation::Setup setup = pin.setup();
+    WearSetup tip = setup.wear[0];
+    std::swap(tip.abrader, tip.worn);
+    tip.wear_coefficient *= 0.01;
+    setup.wear.push_back(tip);
+    setup.ploughing = PloughingSetup{};
+    setup.ploughing->removed_fraction = 0.6;
+    expect_same_bits_from_anywhere(setup, method == Method::dynamic ? 1500 : 300);
+  }
+}
+
 TEST(State, GoesOnToTheSameBitsOnOtherThreads) {
   test::PinOnDisc pin = small_case();
   pin.method = Method::dynamic;

@@ -46,7 +46,7 @@ struct Pressed {
       sum.second += load / s.total * (p.x * p.x + p.y * p.y);
     };
     if (s.nodal) {
-      for (std::size_t i = 0; i < m.node_count(); ++i) add(s.at_node[i], i);
+      for (std::size_t i = 0; i < s.at_node.size(); ++i) add(s.at_node[i], i);
     } else {
       for (std::size_t t = 0; t < s.count; ++t) {
         add(s.at0[t], at(m.v0[t]));
