@@ -209,6 +209,14 @@ ABRADEM_DISPATCH double block_forces(const Work& w, std::int32_t first, std::int
   std::int32_t pair = first;
   for (; pair + 8 <= last; pair += 8) {
     const auto k = at(pair);
+    // Partners lie here and there: ask early for those that will be needed.
+    constexpr std::int32_t kAhead = 32;
+    const auto ahead = at(std::min(pair + kAhead, last - 8));
+    for (std::size_t m = 0; m < 8; ++m) {
+      const char* const row = reinterpret_cast<const char*>(sphere + partner[ahead + m]);
+      __builtin_prefetch(row);
+      __builtin_prefetch(row + 64);
+    }
     Quad d[8];
     std::uint64_t gap[8];  // bits of |x_i - x_j|^2 - (R_i + R_j)^2
     for (std::size_t half = 0; half < 8; half += 4) {
