@@ -128,8 +128,10 @@ double draw_radius(const SizeSetup& size, core::RandomStream& random) {
       double sum = 0.0;
       for (const double share : size.shares) sum += share;
       double left = random.uniform() * sum;
-      for (std::size_t k = 0; k + 1 < size.radii.size(); ++k)
-        if ((left -= size.shares[k]) < 0.0) return size.radii[k];
+      for (std::size_t k = 0; k + 1 < size.radii.size(); ++k) {
+        left -= size.shares[k];
+        if (left < 0.0) return size.radii[k];
+      }
       return size.radii.back();
     }
     case SizeKind::normal:
