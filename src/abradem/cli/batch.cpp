@@ -8,7 +8,6 @@
 #include <chrono>
 #include <csignal>
 #include <deque>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -71,11 +70,6 @@ bool is_of_others(const fs::path& folder) {
   return files && !fs::exists(folder / kManifest, error);
 }
 
-std::string read_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// What lies in a job's folder.
 struct Found {
   JobResult result;
@@ -105,7 +99,7 @@ Found look_at(const PreparedJob& prepared, const fs::path& folder, bool repeat_f
     run = report::read_manifest(folder / "run.json");
   } catch (const IoError&) {  // killed before it was written
     found.result.status = JobStatus::interrupted;
-    found.other_inputs = read_text(folder / "case.resolved.toml") != io::resolved_case(prepared.setup);
+    found.other_inputs = read_file(folder / "case.resolved.toml") != io::resolved_case(prepared.setup);
     return found;
   }
   found.other_inputs = run.inputs_hash != hex(prepared.inputs_hash);

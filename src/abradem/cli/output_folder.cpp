@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <ranges>
 #include <utility>
@@ -118,6 +120,11 @@ void check_result_folder(const fs::path& folder, std::string_view record, std::s
     throw InputError(fmt::format(
         "output folder '{}' already holds {}; add --force to replace it, or choose another with -o",
         folder.string(), what));
+}
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 void write_file(const fs::path& path, std::string_view text) {

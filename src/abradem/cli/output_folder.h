@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,6 +39,9 @@ class OutputFolder {
 /// @throws InputError when it is a file, holds other things, or holds such a result and `force` is not given
 void check_result_folder(const std::filesystem::path& folder, std::string_view record, std::string_view what,
                          bool force);
+
+/// What a file holds; nothing where it is missing or cannot be read.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
 /// Writes a whole file. @throws IoError
 void write_file(const std::filesystem::path& path, std::string_view text);

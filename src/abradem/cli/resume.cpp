@@ -3,14 +3,13 @@
 #include <omp.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 
 #include "abradem/cli/checkpointing.h"
 #include "abradem/cli/commands.h"
 #include "abradem/cli/mesh_loader.h"
+#include "abradem/cli/output_folder.h"
 #include "abradem/cli/path_lock.h"
 #include "abradem/cli/print.h"
 #include "abradem/cli/run_case.h"
@@ -28,11 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using simulation::Simulation;
-
-std::string read_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// The case of a run with what may be changed on the way.
 struct ChangedCase {
@@ -147,7 +141,7 @@ std::optional<Resumed> from_checkpoint(const fs::path& folder, const std::vector
 Resumed from_start(const fs::path& folder, const std::vector<std::string>& overrides, RunLog& log) {
   log.line("there is no checkpoint: from the beginning");
   Resumed resumed;
-  resumed.changed = change(read_text(folder / "case.resolved.toml"), folder, overrides);
+  resumed.changed = change(read_file(folder / "case.resolved.toml"), folder, overrides);
   resumed.run = std::make_unique<Simulation>(resumed.changed.setup, MeshLoader(resumed.changed.setup));
   resumed.recorder = std::make_unique<io::RunRecorder>(*resumed.run, folder);
   resumed.how.record.inputs_hash = io::inputs_hash(resumed.changed.setup);
@@ -179,10 +173,10 @@ int resume_command(const ResumeArguments& arguments) {
   std::error_code error;
   if (fs::exists(folder / "run.json", error)) before = report::read_manifest(folder / "run.json");
   if (before.status == "completed" &&
-      !change(read_text(folder / "case.resolved.toml"), folder, arguments.overrides).changed) {
+      !change(read_file(folder / "case.resolved.toml"), folder, arguments.overrides).changed) {
     if (!arguments.quiet)
       print_message(fmt::format("'{}' is complete; --set run.end=… lets it go on further", folder.string()));
-    if (arguments.json) print_result(read_text(folder / "run.json"));
+    if (arguments.json) print_result(read_file(folder / "run.json"));
     return static_cast<int>(ExitCode::ok);
   }
 

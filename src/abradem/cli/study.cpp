@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "abradem/cli/batch.h"
 #include "abradem/cli/output_folder.h"
@@ -72,11 +70,6 @@ int exit_code_of(const BatchResult& batch) {
   return static_cast<int>(ExitCode::ok);
 }
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 }  // namespace
 
 int run_study(const RunArguments& arguments, const io::Case& study) {
@@ -113,7 +106,7 @@ int run_study(const RunArguments& arguments, const io::Case& study) {
     print_message(fmt::format("{} of {} runs completed, {} made now\nreport: {}",
                               batch.count(JobStatus::completed), batch.jobs.size(), batch.started,
                               page.string()));
-  if (arguments.json) print_result(text_of(output / "batch.json"));
+  if (arguments.json) print_result(read_file(output / "batch.json"));
   return exit_code_of(batch);
 }
 

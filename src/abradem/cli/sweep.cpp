@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <utility>
 
 #include "abradem/cli/batch.h"
 #include "abradem/cli/commands.h"
+#include "abradem/cli/output_folder.h"
 #include "abradem/cli/print.h"
 #include "abradem/cli/sweep_export.h"
 #include "abradem/core/error.h"
@@ -87,11 +87,6 @@ void write_summary(const SweepArguments& arguments, const fs::path& output,
   report::write_page(output, page);
 }
 
-std::string read_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 }  // namespace
 
 int sweep_command(const SweepArguments& arguments) {
@@ -124,7 +119,7 @@ int sweep_command(const SweepArguments& arguments) {
   const BatchResult result = run_batch(options, prepared);
   if (options.only) {
     const JobResult& job = result.jobs[*options.only];
-    if (arguments.json) print_result(read_text(job.folder / "run.json"));
+    if (arguments.json) print_result(read_file(job.folder / "run.json"));
     return result.interrupted ? result.exit_code() : job.exit_code;
   }
   if (!result.interrupted) {
@@ -143,7 +138,7 @@ int sweep_command(const SweepArguments& arguments) {
         fmt::format("interrupted: {} of {} runs completed; the same command again goes on from here",
                     result.count(JobStatus::completed), points.size()));
   }
-  if (arguments.json) print_result(read_text(options.output / "batch.json"));
+  if (arguments.json) print_result(read_file(options.output / "batch.json"));
   return result.exit_code();
 }
 

@@ -8,17 +8,14 @@
 #include <vector>
 
 #include "abradem/core/error.h"
+#include "abradem/core/text.h"
 #include "abradem/core/units.h"
 #include "abradem/io/case_schema.h"
 
 namespace abradem::io {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
+using core::trimmed;
 
 /// Pieces between separators that stand outside quotes and brackets; at most `most` of them.
 std::vector<std::string_view> split(std::string_view text, char separator, std::size_t most = SIZE_MAX) {

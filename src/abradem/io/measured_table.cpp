@@ -11,17 +11,14 @@
 
 #include "abradem/core/error.h"
 #include "abradem/core/suggest.h"
+#include "abradem/core/text.h"
 #include "abradem/io/csv.h"
 
 namespace abradem::io {
 
 namespace {
 
-std::string_view trimmed(std::string_view text) noexcept {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
+using core::trimmed;
 
 /// "mm3" and "N/mm2" as units are written in names of columns: a number behind a letter is a power.
 std::string with_powers(std::string_view unit) {

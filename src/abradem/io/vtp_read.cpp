@@ -14,11 +14,14 @@
 #include <utility>
 
 #include "abradem/core/error.h"
+#include "abradem/core/text.h"
 
 // The XML of these files is machine-written and flat: tags, attributes in double quotes, no entities, no
 // comments inside elements. So a scanner that walks from tag to tag is enough.
 namespace abradem::io {
 namespace {
+
+using core::trimmed;
 
 struct Tag {
   std::string_view name;  ///< "/Name" for a closing tag
@@ -255,12 +258,6 @@ std::vector<double> parse_ascii(const Document& document, std::string_view text)
     at = end;
   }
   return out;
-}
-
-std::string_view trimmed(std::string_view text) noexcept {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
 /// The arrays of the file, by section ("Points", "Polys", "PointData", "CellData") and name.

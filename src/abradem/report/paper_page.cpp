@@ -133,11 +133,7 @@ Page paper_page(const simulation::Setup& study, std::span<const StudyRun> study_
   for (PageSection* section : {&mesh, &force, &spread, &volume, &groove})
     if (!section->items.empty()) page.sections.push_back(std::move(*section));
   page.sections.push_back({"What no run can answer", {unanswered_table(judged, runs)}});
-  PageSection all{"All runs", {}};
-  if (const std::string missing = gaps(study_runs); !missing.empty())
-    all.items.emplace_back(Paragraph{"Not completed: " + missing});
-  all.items.emplace_back(study_runs_table(study_runs, output));
-  page.sections.push_back(std::move(all));
+  page.sections.push_back(all_runs(study_runs, output));
   return page;
 }
 

@@ -552,11 +552,7 @@ Page scaling_page(const simulation::Setup& study, std::span<const StudyRun> runs
     add_laboratory(laboratory, s);
     if (!laboratory.items.empty()) page.sections.push_back(std::move(laboratory));
   }
-  PageSection all{"All runs", {}};
-  if (const std::string missing = gaps(runs); !missing.empty())
-    all.items.emplace_back(Paragraph{"Not completed: " + missing});
-  all.items.emplace_back(study_runs_table(runs, output));
-  page.sections.push_back(std::move(all));
+  page.sections.push_back(all_runs(runs, output));
   return page;
 }
 

@@ -65,17 +65,11 @@ Page table_page(const simulation::Setup& setup, std::span<const StudyRun> runs,
     section.items.emplace_back(results_table(variation.name, table));
     page.sections.push_back(std::move(section));
   }
-  PageSection all{"All runs", {}};
-  if (const std::string missing = gaps(runs); !missing.empty())
-    all.items.emplace_back(Paragraph{"Not completed: " + missing});
-  all.items.emplace_back(study_runs_table(runs, output));
-  page.sections.push_back(std::move(all));
+  page.sections.push_back(all_runs(runs, output));
   return page;
 }
 
-}  // namespace
-
-DataTable study_runs_table(std::span<const StudyRun> runs, const std::filesystem::path& output) {
+DataTable runs_table(std::span<const StudyRun> runs, const std::filesystem::path& output) {
   DataTable table{
       "study-runs",
       "Runs of the study",
@@ -95,6 +89,7 @@ DataTable study_runs_table(std::span<const StudyRun> runs, const std::filesystem
   return table;
 }
 
+/// "mesh_size/03 failed: …" of each run that did not complete, as one text; empty where all did.
 std::string gaps(std::span<const StudyRun> runs) {
   std::string text;
   for (const StudyRun& run : runs)
@@ -102,6 +97,16 @@ std::string gaps(std::span<const StudyRun> runs) {
       text += fmt::format("{}{} {}{}{}", text.empty() ? "" : "; ", run.name, run.status,
                           run.message.empty() ? "" : ": ", run.message);
   return text;
+}
+
+}  // namespace
+
+PageSection all_runs(std::span<const StudyRun> runs, const std::filesystem::path& output) {
+  PageSection all{"All runs", {}};
+  if (const std::string missing = gaps(runs); !missing.empty())
+    all.items.emplace_back(Paragraph{"Not completed: " + missing});
+  all.items.emplace_back(runs_table(runs, output));
+  return all;
 }
 
 Page study_page(const simulation::Setup& study, std::span<const StudyRun> runs,

@@ -31,10 +31,8 @@ struct StudyRun {
 [[nodiscard]] Page study_page(const simulation::Setup& study, std::span<const StudyRun> runs,
                               const std::filesystem::path& output);
 
-/// All runs: what was varied, how they ended, and where their tables are.
-[[nodiscard]] DataTable study_runs_table(std::span<const StudyRun> runs, const std::filesystem::path& output);
-
-/// "mesh_size/03 failed: …" of each run that did not complete, as one text; empty where all did.
-[[nodiscard]] std::string gaps(std::span<const StudyRun> runs);
+/// The section that ends a study's page: which runs did not complete, and of all what was varied, how they
+/// ended, and where their tables are.
+[[nodiscard]] PageSection all_runs(std::span<const StudyRun> runs, const std::filesystem::path& output);
 
 }  // namespace abradem::report

@@ -11,15 +11,12 @@
 #include <numeric>
 
 #include "abradem/core/error.h"
+#include "abradem/core/text.h"
 
 namespace abradem::report {
 namespace {
 
-std::string_view trimmed(std::string_view text) noexcept {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
+using core::trimmed;
 
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> fields;
