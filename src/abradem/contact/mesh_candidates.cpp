@@ -204,13 +204,16 @@ bool MeshCandidates::restore(const TriangleMesh& mesh) {
 
 /// Local numbers of the vertices, in the order in which the triangles come to them.
 void MeshCandidates::number_nodes(const TriangleMesh& mesh) {
-  if (local_.size() != mesh.vertices.size()) local_.assign(mesh.vertices.size(), -1);
+  // One for each thread and not for each sphere: there may be thousands beside a large mesh.
+  static thread_local std::vector<std::int32_t> numbers;  // local number of a mesh vertex, or -1
+  if (numbers.size() < mesh.vertices.size()) numbers.resize(mesh.vertices.size(), -1);
+  std::int32_t* const local_of = numbers.data();
   node.clear();
   v0.clear(), v1.clear(), v2.clear();
   for (const Index t : triangle) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index v = mesh.triangles[at(t)][k];
-      std::int32_t& local = local_[at(v)];
+      std::int32_t& local = local_of[at(v)];
       if (local < 0) {
         local = static_cast<std::int32_t>(node.size());
         node.push_back(v);
@@ -218,7 +221,7 @@ void MeshCandidates::number_nodes(const TriangleMesh& mesh) {
       (k == 0 ? v0 : k == 1 ? v1 : v2).push_back(local);
     }
   }
-  for (const Index v : node) local_[at(v)] = -1;
+  for (const Index v : node) local_of[at(v)] = -1;
 }
 
 void MeshCandidates::allocate() {

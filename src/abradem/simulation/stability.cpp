@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How far the time step is from the limits of the explicit scheme. docs/theory/time-step.md
+#include <algorithm>
 #include <cmath>
 
 #include "abradem/simulation/simulation.h"
@@ -17,6 +18,7 @@ double damped_number(double stiffness, double damping, double mass, double dt) n
 }  // namespace
 
 void Simulation::watch_stability() {
+  if (bulk_) worst_damping_ = std::max(worst_damping_, bulk_->worst_stability());
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     double stiffness = 0.0, damping = 0.0;
     for (std::size_t w = 0; w < walls_.size(); ++w) {
@@ -51,6 +53,12 @@ std::vector<StabilityLimit> Simulation::limits() const {
         number =
             std::max(number, damped_number(S, contact::damping_coefficient(properties, S, mass), mass, dt_));
     }
+  }
+  for (const InsertionSetup& i : setup_.insertions) {
+    const auto m =
+        std::ranges::find(setup_.materials, i.material, &MaterialSetup::name) - setup_.materials.begin();
+    rayleigh = std::max(
+        rayleigh, dt_ / material::rayleigh_time(materials_[static_cast<std::size_t>(m)], smallest_radius(i)));
   }
   return {{"time step / Rayleigh time", rayleigh, 0.4, "-"},
           {"time step / Hertz impact time", hertz, 0.1, "-"},
