@@ -3,61 +3,16 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 
-#include "abradem/simulation/simulation.h"
+#include "support/grains.h"
 
 namespace abradem::test {
 namespace {
 
 using namespace simulation;
-
-constexpr double pi = std::numbers::pi;
-
-WallSetup plane(const std::string& name, const Vec3& point, const Vec3& normal) {
-  WallSetup wall;
-  wall.name = name;
-  wall.material = "grain";
-  wall.mesh.shape = MeshShape::plane;
-  wall.mesh.position = point;
-  wall.mesh.normal = normal;
-  return wall;
-}
-
-/// Grains of one material, in an open box [0, side] x [0, side] where side > 0.
-simulation::Setup grains(double restitution, double friction, double side) {
-  Setup setup;
-  setup.materials = {{"grain", 2500.0, 1e7, 0.25, {}}};
-  setup.contacts = {{"grain", "grain", restitution, friction, 0.0}};
-  if (side > 0.0)
-    setup.walls = {plane("left", {0, 0, 0}, {1, 0, 0}), plane("right", {side, 0, 0}, {-1, 0, 0}),
-                   plane("front", {0, 0, 0}, {0, 1, 0}), plane("back", {0, side, 0}, {0, -1, 0})};
-  setup.insertions.resize(1);
-  setup.insertions[0].name = "grains";
-  setup.insertions[0].material = "grain";
-  setup.output.every = {1.0, false};
-  setup.run.end = {1.0, false};
-  setup.run.time_step = {0.2, true};
-  return setup;
-}
-
-/// A jittered lattice, `across` by `across` on the ground, each with a random velocity.
-std::vector<PlacedSphere> lattice(std::size_t count, std::size_t across, double R, double pitch,
-                                  double speed) {
-  core::RandomStream random(5);
-  std::vector<PlacedSphere> spheres;
-  const double play = 0.45 * (pitch - 2.0 * R);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto place = [&](std::size_t k) {
-      return (static_cast<double>(k) + 0.5) * pitch + random.uniform(-play, play);
-    };
-    const auto any = [&] { return random.uniform(-speed, speed); };
-    const Vec3 p{place(i % across), place(i / across % across), place(i / across / across)};
-    spheres.push_back({p, R, {any(), any(), any()}});
-  }
-  return spheres;
-}
 
 TEST(Bulk, ClosedSystemKeepsMomentumAndEnergy) {
   // A gas of elastic grains without friction, of two sizes, in empty space.
@@ -100,36 +55,6 @@ TEST(Bulk, FrictionAndDampingOnlyTakeEnergy) {
     before = s.kinetic_energy + s.elastic_energy;
   }
   EXPECT_LT(before, 0.6 * Simulation(setup).kinetic_energy());
-}
-
-/// Volume fraction of the spheres within a box, by points on a lattice.
-double fraction_within(const contact::Spheres& spheres, const Vec3& low, const Vec3& high, double pitch) {
-  const auto n = [&](double a, double b) { return static_cast<std::size_t>((b - a) / pitch); };
-  const std::size_t nx = n(low.x, high.x), ny = n(low.y, high.y), nz = n(low.z, high.z);
-  std::vector<char> filled(nx * ny * nz, 0);
-  for (const contact::SphereRow& s : spheres.row) {
-    const auto first = [&](double x, double l) {
-      return static_cast<std::ptrdiff_t>(std::ceil((x - s.radius - l) / pitch));
-    };
-    const auto last = [&](double x, double l) {
-      return static_cast<std::ptrdiff_t>(std::floor((x + s.radius - l) / pitch));
-    };
-    for (auto i = std::max<std::ptrdiff_t>(0, first(s.x, low.x));
-         i <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(nx) - 1, last(s.x, low.x)); ++i)
-      for (auto j = std::max<std::ptrdiff_t>(0, first(s.y, low.y));
-           j <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(ny) - 1, last(s.y, low.y)); ++j)
-        for (auto k = std::max<std::ptrdiff_t>(0, first(s.z, low.z));
-             k <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(nz) - 1, last(s.z, low.z)); ++k) {
-          const Vec3 p =
-              low + pitch * Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
-          if (norm2(p - s.position()) < s.radius * s.radius)
-            filled[(static_cast<std::size_t>(i) * ny + static_cast<std::size_t>(j)) * nz +
-                   static_cast<std::size_t>(k)] = 1;
-        }
-  }
-  std::size_t count = 0;
-  for (const char f : filled) count += f != 0;
-  return static_cast<double>(count) / static_cast<double>(filled.size());
 }
 
 TEST(Bulk, FrictionlessGrainsPackAtRandomCloseDensity) {
@@ -216,6 +141,42 @@ TEST(Bulk, WearOnAMovingDeformingWallIsAllAccountedForOnAnyNumberOfThreads) {
     EXPECT_EQ(run.state_hash(), hash) << threads << " threads";
   }
   omp_set_num_threads(before);
+}
+
+TEST(Bulk, WhatLiesOnAGateFallsFromTheMomentItIsTakenAway) {
+  for (const bool mesh : {false, true}) {
+    simulation::Setup setup = grains(0.3, 0.3, 0.0);
+    setup.walls = {plane("gate", {0, 0, 0}, {0, 0, 1})};
+    if (mesh) {
+      setup.walls[0].mesh.shape = MeshShape::plate;
+      setup.walls[0].mesh.length = setup.walls[0].mesh.width = 0.1;
+      setup.walls[0].mesh.size = 0.02;
+      setup.walls[0].contact = ContactRule::resolved;
+    }
+    setup.walls[0].until = 0.03;
+    setup.run.gravity = {0, 0, -9.81};
+    setup.insertions[0].placed = {{{0, 0, 3e-3}, 3e-3, {}}};
+    ParticleSetup named;
+    named.name = "named";
+    named.material = "grain";
+    named.radius = 3e-3;
+    named.position = {0.02, 0, 3e-3};
+    setup.particles = {named};
+    Simulation run(setup);
+    const auto speeds = [&] {
+      const auto& spheres = run.bulk()->spheres();
+      const auto in_numbers = static_cast<std::size_t>(std::ranges::find(spheres.id, 1) - spheres.id.begin());
+      return std::array{spheres.row[in_numbers].vz, run.particles().velocity[0].z};
+    };
+    while (run.time() < 0.03) run.step();
+    for (const double v : speeds()) EXPECT_LT(std::abs(v), 2e-3);
+    const auto rest = speeds();
+    while (run.time() < 0.06) run.step();
+    // The first step without the gate is the one that begins at 0.03 s or just after.
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_NEAR(speeds()[k] - rest[k], -9.81 * 0.03, 9.81 * 2.0 * run.time_step());
+    EXPECT_EQ(norm(run.bulk_force_on_wall(0)), 0.0);
+  }
 }
 
 TEST(Bulk, GrainOnAMeshMovesAsOnAPlane) {

@@ -127,7 +127,8 @@ std::string coarse_groove(const Simulation& run, const analysis::RevolutionRow& 
   constexpr double kEnough = 5.0, kAdvised = 8.0;  // triangles across the groove
   constexpr double kClear = 1e-6;                  // [m]; a shallower groove has no width yet
   const auto wall = analysis::worn_wall(run.walls());
-  if (!wall || row.depth_mean < kClear) return {};
+  // Sections say something of one groove, not of what a stream of particles wears.
+  if (!wall || !(row.depth_mean >= kClear) || !run.setup().insertions.empty()) return {};
   const double edge = geometry::mean_edge_length(run.walls()[*wall].surface().mesh());
   if (row.width_mean >= kEnough * edge) return {};
   return fmt::format(

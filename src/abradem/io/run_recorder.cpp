@@ -149,7 +149,7 @@ void RunRecorder::write_frame() {
   triangles_.resize(run_.walls().size());
   for (std::size_t w = 0; w < run_.walls().size(); ++w) {
     const simulation::Wall& wall = run_.walls()[w];
-    if (wall.is_plane()) continue;
+    if (wall.is_plane() || !wall.present(run_.time())) continue;
     // A wall that keeps its shape is written once.
     const bool still = wall.setup().deformation == simulation::DeformationRule::none && state_.frame > 0;
     const std::string file = fmt::format("vtk/{}_{:04}.vtp", wall.setup().name, still ? 0 : state_.frame);

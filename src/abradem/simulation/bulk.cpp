@@ -105,6 +105,7 @@ void Bulk::find_contacts(const Surroundings& around, const Particles& named, std
   take_in(around.time);
   fetch_named(named);
   const double by_walls = walls_.fastest_wall() * wall_time_;
+  worn_out_ = worn_out_ || around.time >= walls_.next_removal();
   if (worn_out_ || travelled_ > 0.5 * skin_ || travelled_ + by_walls > skin_) {
     take_out();
     double sum = 0.0;

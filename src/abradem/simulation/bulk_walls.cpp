@@ -76,8 +76,14 @@ void BulkWalls::rebuild(const contact::Spheres& spheres, const Surroundings& aro
                         int first_id, std::vector<double>& paper) {
   find_constants(around);
   fastest_wall_ = 0.0;
+  next_removal_ = std::numeric_limits<double>::infinity();
   for (std::size_t w = 0; w < around.walls.size(); ++w) {
     const Wall& wall = around.walls[w];
+    if (!wall.present(around.time)) {
+      planes_[w] = {};
+      continue;
+    }
+    if (wall.setup().until) next_removal_ = std::min(next_removal_, *wall.setup().until);
     fastest_wall_ = std::max(fastest_wall_, largest_speed(wall, spheres, skin));
     odometer_[w] = wall.is_plane() ? 0.0 : wall.surface().odometer();
     if (wall.is_plane()) planes_[w].rebuild(spheres, plane_of(wall, around.poses[w]), skin, first_id);
@@ -93,13 +99,14 @@ void BulkWalls::list_meshes(const contact::Spheres& spheres, const Surroundings&
   const std::size_t blocks = (spheres.size() + kBlock - 1) / kBlock;
   std::vector<std::vector<NearMesh>> found(blocks);
   for (std::size_t w = 0; w < around.walls.size(); ++w)
-    if (!around.walls[w].is_plane()) grids_[w].update(around.walls[w].view(), largest + skin);
+    if (!around.walls[w].is_plane() && largest > 0.0)
+      grids_[w].update(around.walls[w].view(), largest + skin);
   core::parallel_blocks(blocks, [&](std::size_t b) {
     for (std::size_t i = b * kBlock; i < std::min(spheres.size(), (b + 1) * kBlock); ++i) {
       if (spheres.id[i] < first_id) continue;
       const contact::SphereRow& s = spheres.row[i];
       for (std::size_t w = 0; w < around.walls.size(); ++w) {
-        if (around.walls[w].is_plane()) continue;
+        if (around.walls[w].is_plane() || !around.walls[w].present(around.time)) continue;
         const Vec3 c = around.poses[w].to_body(s.position());
         if (!grids_[w].may_be_near(c)) continue;
         const auto distance = distance_within(around.walls[w].view(), c, s.radius + skin);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
+#include <limits>
 #include <memory>
 
 #include "abradem/contact/plane_forces.h"
@@ -56,12 +56,14 @@ class BulkWalls {
   /// How fast any point of a wall within reach of the spheres moves [m/s].
   [[nodiscard]] double fastest_wall() const noexcept { return fastest_wall_; }
   [[nodiscard]] std::size_t contacts() const noexcept;
+  /// Time at which the next wall is taken away, and the lists with it [s]; infinite: none is.
+  [[nodiscard]] double next_removal() const noexcept { return next_removal_; }
 
   /// Who is near which wall, and what each contact remembers, for core/archive.h; restore() follows a load.
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
     archive.fixed("planes", self.planes_)("meshes", self.meshes_).fixed("odometer", self.odometer_);
-    archive("fastest_wall", self.fastest_wall_);
+    archive("fastest_wall", self.fastest_wall_)("next_removal", self.next_removal_);
   }
   /// @return whether what was loaded fits the spheres and the walls
   [[nodiscard]] bool restore(const contact::Spheres& spheres, const Surroundings& around);
@@ -76,7 +78,7 @@ class BulkWalls {
   std::vector<NearMesh> meshes_;                   // by sphere, then wall
   std::vector<double> odometer_;                   // of each wall's wear at the rebuild [m]
   std::vector<contact::PairConstants> constants_;  // walls x materials
-  double fastest_wall_ = 0.0;
+  double fastest_wall_ = 0.0, next_removal_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace abradem::simulation

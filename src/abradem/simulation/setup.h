@@ -93,7 +93,8 @@ struct WallSetup {
   ContactRule contact = ContactRule::patch;
   DeformationRule deformation = DeformationRule::none;
   Footprint footprint = Footprint::hertz;
-  int deform_every = 1;  ///< steps between updates of the shape; 1 in the rule `paper`
+  int deform_every = 1;         ///< steps between updates of the shape; 1 in the rule `paper`
+  std::optional<double> until;  ///< taken away at this time, as a gate is [s]; default: it stays
   bool operator==(const WallSetup&) const = default;
 };
 

@@ -244,6 +244,9 @@ void Simulation::choose_time_step() {
   if (setup_.run.method == Method::quasi_static) {
     if (!setup_.insertions.empty())
       throw InputError("method quasi_static balances guided particles; with an [insertion] use dynamic");
+    for (const WallSetup& wall : setup_.walls)
+      if (wall.until)
+        throw InputError(fmt::format("wall '{}' goes away on the way; use method dynamic", wall.name));
     double speed = 0.0;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       if (particles_.guide[p] == Vec3{} || norm(particles_.load[p]) == 0.0)
@@ -339,6 +342,10 @@ void Simulation::find_contacts() {
   }
   core::parallel_for(sphere_walls_.size(), [&](std::size_t k) {
     const std::size_t p = k / walls_.size(), w = k % walls_.size();
+    if (!walls_[w].present(time())) {
+      sphere_walls_[k].let_go();
+      return;
+    }
     sphere_walls_[k].find(walls_[w], centre(p, w), particles_.radius[p],
                           pair(particles_.material[p], walls_[w].material()));
   });

@@ -67,6 +67,12 @@ class SphereWall {
   /// run at once.
   void find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
 
+  /// The wall is gone: no contacts, and none remembered.
+  void let_go() noexcept {
+    touches_.clear();
+    memory_.clear();
+  }
+
   /// Forces of the contacts found [world frame], and their histories one step on.
   ForceAndTorque compute(const Wall& wall, const geometry::Pose& pose, const SphereState& sphere,
                          const contact::PairProperties& pair, double dt);
