@@ -120,6 +120,25 @@ TEST(CaseFile, KeepsTheTextByteForByte) {
   EXPECT_EQ(load_case(kExample).text, text);
 }
 
+TEST(CaseFile, AKeyOfAnyCharacterIsReadOrRefusedInWords) {
+  const std::string small = kSmall;
+  EXPECT_EQ(complaint(small + "\u00b3 = 1\n").substr(0, 22), "case.toml:18:1: error:");
+  const auto utf8 = [](unsigned c) {
+    std::string text;
+    const auto byte = [&](unsigned b) { text += static_cast<char>(b); };
+    if (c < 0x800) {
+      byte(0xc0 | c >> 6);
+    } else {
+      byte(0xe0 | c >> 12);
+      byte(0x80 | (c >> 6 & 0x3f));
+    }
+    byte(0x80 | (c & 0x3f));
+    return text;
+  };
+  for (unsigned c = 0x80; c < 0x10000; c += c < 0x1000 ? 1 : 61)
+    EXPECT_NE(complaint(small + utf8(c) + " = 1\n"), "") << c;
+}
+
 TEST(CaseFile, WhatIsNotGivenHasTheDefaultOfTheSetup) {
   const CaseSetup s = read(kSmall);
   const simulation::WallSetup fresh;
