@@ -145,6 +145,7 @@ void Simulation::add_particles() {
   particles_.force.resize(particles_.size());
   particles_.torque.resize(particles_.size());
   stiffness_ratio_.assign(particles_.size(), 0.0);
+  growth_.assign(particles_.size(), 0.0);
   for (std::size_t i = 0; i < particles_.size(); ++i)
     for (std::size_t j = i + 1; j < particles_.size(); ++j) sphere_pairs_.push_back({i, j, {}, 0.0});
 }
@@ -462,10 +463,9 @@ void Simulation::record() {
   check_state();
   watch_stability();
   ++steps_;
-  if (steps_ % steps_per_output_ == 0 || finished()) {
-    book_elements();
-    check_ledger();
-  }
+  const bool due = steps_ % steps_per_output_ == 0 || finished();
+  if (due) book_elements();
+  if (due || ledger_due()) check_ledger();
   if (observer_) observer_(*this);
 }
 

@@ -206,6 +206,7 @@ class Simulation {
   void book_elements();
   void limit_energies();
   void check_state() const;
+  [[nodiscard]] bool ledger_due() const noexcept;
   void check_ledger();
   void watch_stability();
 
@@ -229,6 +230,7 @@ class Simulation {
   std::vector<double>
       stiffness_ratio_;         // quasi_static: of each particle's contact, to Hertz's; 0: not measured yet
   double worst_damping_ = 0.0;  // largest 2 g + W met
+  std::vector<double> growth_;  // of a disturbance of each particle, while its steps are too long: ln [-]
   std::vector<double> energy_limit_;  // kinetic, of each particle: none that moves rightly has it [J]
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -63,6 +64,24 @@ TEST(Watchdog, NotANumberStopsInTheSameStep) {
   }
 }
 
+TEST(Watchdog, NotANumberStopsABalanceInTheSameIncrement) {
+  Simulation run(small_case(Method::quasi_static));
+  EXPECT_EQ(stopped(run, 3), "");
+  run.particles().position[0].z = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(says(stopped(run, 1), {"particle 'pin'", "step 3"}));
+  EXPECT_EQ(run.steps(), 3U);
+}
+
+TEST(Watchdog, WearThatIsNoNumberStopsInTheSameStep) {
+  for (const Method method : {Method::quasi_static, Method::dynamic}) {
+    simulation::Setup s = small_case(method);
+    s.wear[0].wear_coefficient = std::numeric_limits<double>::quiet_NaN();
+    s.particles[0].position.z = 0.99 * s.particles[0].radius;  // in contact from the start
+    Simulation run(s);
+    EXPECT_TRUE(says(stopped(run, 2), {"wall 'disc', step ", "no longer a number"}));
+  }
+}
+
 TEST(Watchdog, ExplodingEnergyStopsInTheSameStep) {
   Simulation run(shot(1e-3));
   EXPECT_EQ(stopped(run, 3), "");
@@ -107,6 +126,17 @@ TEST(Watchdog, WhatIsFastEnoughToPassThroughAWallIsStoppedBefore) {
   EXPECT_EQ(run.steps(), 0U);
 }
 
+TEST(Watchdog, AWallThatIsFastEnoughToPassThroughAParticleIsStoppedBefore) {
+  simulation::Setup s = shot(0.0);
+  s.particles[0].position = {6e-3, 0.0, 0.1};
+  s.walls[0].motion.kind = MotionKind::translation;
+  s.walls[0].motion.velocity = {0.0, 0.0, 3000.0};
+  s.run.end = s.output.every = {1.0, false};
+  Simulation run(s);
+  EXPECT_TRUE(says(stopped(run, 1), {"particle 'pin', step 0", "wall 'disc' moves past it by ",
+                                     "in one step, more than its radius"}));
+}
+
 TEST(Watchdog, TwoBallsInOneAnotherStopTheRun) {
   simulation::Setup s = shot(0.0);
   s.particles.push_back(s.particles[0]);
@@ -122,6 +152,102 @@ TEST(Watchdog, AGuidedParticleThatLeftItsWallsStopsTheRun) {
   s.particles[0].position.x = 50e-3;
   Simulation run(s);
   EXPECT_TRUE(says(stopped(run, 5000), {"it has left the walls"}));
+}
+
+/// A pin at rest on a plane, its load carried.
+simulation::Setup at_rest(double time_step, Stability stability = Stability::stop) {
+  simulation::Setup s = small_case();
+  s.walls[0].mesh = {};
+  s.walls[0].mesh.shape = MeshShape::plane;
+  s.walls[0].motion = {};
+  s.wear.clear();
+  const contact::PairProperties pair = material::effective_moduli(
+      {s.materials[0].density, s.materials[0].shear_modulus, s.materials[0].poisson_ratio},
+      {s.materials[1].density, s.materials[1].shear_modulus, s.materials[1].poisson_ratio});
+  s.particles[0].position.z -= contact::hertz_overlap(pair, test::PinOnDisc::kRadius, test::PinOnDisc::kLoad);
+  s.run.end = s.output.every = {1.0, false};
+  s.run.time_step = {time_step, false};
+  s.run.stability = stability;
+  return s;
+}
+
+// 2 c dt + S dt^2 = 4 M at the pin's load, by hand: M = 5.4852e-4 kg, S = 1.8389e5 N/m, c = 5.1343 N s/m.
+constexpr double kStableStep = 8.482e-5;
+
+TEST(Watchdog, ADisturbanceDiesOutBelowTheLimitOfTheStepAndStopsTheRunAboveIt) {
+  const double rest = at_rest(1e-6).particles[0].position.z, disturbance = 1e-11;
+  Simulation below(at_rest(0.99 * kStableStep));
+  below.particles().position[0].z += disturbance;
+  EXPECT_EQ(stopped(below, 5000), "");
+  EXPECT_NEAR(below.particles().position[0].z, rest, 1e-3 * disturbance);
+
+  Simulation above(at_rest(1.01 * kStableStep));
+  above.particles().position[0].z += disturbance;
+  EXPECT_TRUE(says(stopped(above, 2000),
+                   {"particle 'pin', step ", "the time step is too long: 2g + W = 4.0", "1 contacts",
+                    "run.time_step below 8.48e-05 s", "run.stability = \"warn\""}));
+  EXPECT_GT(std::abs(above.particles().position[0].z - rest), 100.0 * disturbance);
+  EXPECT_LT(std::abs(above.particles().position[0].z - rest), 1e4 * disturbance);
+}
+
+TEST(Watchdog, TheLimitOfTheStepIsAWarningWhereTheCaseSaysSo) {
+  Simulation run(at_rest(1.02 * kStableStep, Stability::warn));
+  EXPECT_EQ(stopped(run, 3000), "");
+  EXPECT_FALSE(run.limits().back().ok());
+}
+
+TEST(Watchdog, ShortPeaksAboveTheLimitAreNoInstability) {
+  // An impact whose deepest steps are above the limit, and the rest of it below.
+  simulation::Setup s = shot(3.0);
+  s.run.time_step = {6.8e-5, false};
+  Simulation run(s);
+  EXPECT_EQ(stopped(run, 40), "");
+  EXPECT_GT(run.limits().back().value, 4.0);
+}
+
+TEST(Watchdog, ManyTrianglesThatEachHoldTheSphereAreTooMuchForTheStep) {
+  simulation::Setup s = small_case();
+  s.walls[0].mesh.size = 0.05e-3;
+  s.walls[0].contact = ContactRule::per_triangle;
+  Simulation run(s);
+  EXPECT_TRUE(says(stopped(run, 500), {"the time step is too long", "contact = \"patch\""}));
+  s.walls[0].contact = ContactRule::patch;
+  Simulation patch(s);
+  EXPECT_EQ(stopped(patch, 500), "");
+}
+
+TEST(Watchdog, ATriangleThatTurnsOverStopsTheRun) {
+  // A sheet with a skirt: the pin wears the rim inwards, over the nodes behind it.
+  simulation::Setup s = small_case(Method::quasi_static);
+  s.walls[0].mesh.shape = MeshShape::plate;
+  s.walls[0].motion = {};
+  s.walls[0].motion.kind = MotionKind::oscillation;
+  s.walls[0].motion.amplitude = {1e-3, 0.0, 0.0};
+  s.walls[0].motion.frequency = 1.0;
+  s.wear[0].wear_coefficient = 2e-11;
+  s.run.increment = 0.05e-3;
+  s.particles[0].position = {0.0, 0.0, s.particles[0].radius};
+  s.run.end = s.output.every = {200.0, true};
+  const auto sheet = [](const MeshSetup&, std::uint64_t) {
+    geometry::TriangleMesh mesh;
+    constexpr int n = 60;
+    constexpr double edge = 0.1e-3, height = 0.2e-3;
+    for (int i = 0; i <= n; ++i) {
+      const double x = (i - n / 2) * edge;
+      mesh.vertices.insert(mesh.vertices.end(), {{x, edge, 0.0}, {x, 0.0, 0.0}, {x, 0.0, -height}});
+    }
+    for (std::int32_t i = 0; i < n; ++i) {
+      const std::int32_t a = 3 * i;
+      for (const std::int32_t row : {0, 1}) {
+        mesh.triangles.push_back({a + row, a + row + 1, a + row + 4});
+        mesh.triangles.push_back({a + row, a + row + 4, a + row + 3});
+      }
+    }
+    return mesh;
+  };
+  Simulation run(s, sheet);
+  EXPECT_TRUE(
+      says(stopped(run, 200000), {"wall 'disc', step ", "wear turned over triangle ", "Lower the wear"}));
 }
 
 TEST(Watchdog, BooksThatDoNotCloseStopTheRunAtTheNextOutput) {
