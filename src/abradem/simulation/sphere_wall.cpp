@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "abradem/geometry/closest_point.h"
+
 namespace abradem::simulation {
 
 namespace {
@@ -392,6 +394,19 @@ int SphereWall::elements(const Wall& wall) const {
   int count = 0;
   for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) count += inside(t);
   return std::max(count, static_cast<int>(touches_.size()));
+}
+
+geometry::Index SphereWall::nearest_triangle(const Vec3& c) const noexcept {
+  geometry::Index nearest = -1;
+  double distance2 = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
+    const auto corner = [&](std::int32_t v) { return candidates_.node_position(at(v)); };
+    const Vec3 point = geometry::closest_point_on_triangle(
+                           c, corner(candidates_.v0[t]), corner(candidates_.v1[t]), corner(candidates_.v2[t]))
+                           .point;
+    if (norm2(point - c) < distance2) distance2 = norm2(point - c), nearest = candidates_.triangle[t];
+  }
+  return nearest;
 }
 
 void SphereWall::note_nodes() {

@@ -133,6 +133,10 @@ class SphereWall {
   /// Wear of elements not yet handed over [m^3].
   [[nodiscard]] double pending_volume() const noexcept;
 
+  /// The triangle that is nearest to the sphere at c, in the wall's frame; -1 where none is near, or for a
+  /// plane.
+  [[nodiscard]] geometry::Index nearest_triangle(const Vec3& c) const noexcept;
+
   /// Adds what the next step depends on: the contacts' springs.
   void add_to(core::StateHash& hash) const;
 

@@ -23,6 +23,7 @@ void Simulation::visit(Self& self, Archive& archive) {
   archive.fixed("tip_law", self.tip_law_);
   archive.fixed("sphere_walls", self.sphere_walls_).fixed("sphere_pairs", self.sphere_pairs_);
   archive.fixed("stiffness_ratio", self.stiffness_ratio_)("worst_damping", self.worst_damping_);
+  archive.fixed("growth", self.growth_);
 }
 
 void Simulation::save(core::ArchiveWriter& archive) const { visit(*this, archive); }

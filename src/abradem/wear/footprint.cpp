@@ -152,7 +152,9 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
   for (auto* array : {&at0_, &at1_, &at2_}) array->assign(candidates.padded_triangle_count(), 0.0);
   // Points no further apart than a fifth of the footprint's radius; the sliding averages what is left.
   constexpr int kFinest = 48;
-  const int parts = std::clamp(static_cast<int>(std::ceil(2.0 * kEdgesPerReach / edges)), 2, kFinest);
+  // Compared as it is: a spot of no size asks for infinitely many, a state that is not a number for none.
+  const double wanted = 2.0 * kEdgesPerReach / edges;
+  const int parts = wanted < kFinest ? std::max(static_cast<int>(std::ceil(wanted)), 2) : kFinest;
   choose_points(parts);
   const auto masked_out = [&](std::size_t t) { return !mask.empty() && mask[t] == 0; };
   shares_.total = 0.0;
