@@ -188,9 +188,9 @@ void Simulation::add_tips() {
 /// Sliding distance per step of `quasi_static`, as shares f of the contact's half-width a [m].
 /// docs/theory/quasi-static.md#increment
 double Simulation::choose_increment() const {
-  constexpr double kShare = 0.2, kRevolutions = 12.0;  // resolves the contact in every single pass
-  constexpr double kPatch = 2.0;                       // the contact's length: no spot is left out
-  constexpr double kSteepest = 2.5;                    // of alpha E* f; unstable above 5
+  constexpr double kShare = 0.2, kRevolutions = 6.5;  // resolves the contact in every single pass
+  constexpr double kPatch = 2.0;                      // the contact's length: no spot is left out
+  constexpr double kSteepest = 2.5;                   // of alpha E* f; unstable above 5
   const double n = period_ > 0.0 ? end_ / period_ : 0.0;
   double increment = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < particles_.size(); ++p)
@@ -277,10 +277,11 @@ bool Simulation::advance(const std::function<bool()>& watch) {
 void Simulation::move_walls() {
   double instant = time();
   // An increment stands for the distance it slides: where in it the balance is struck differs from one
-  // revolution to the next (by the golden ratio, which spreads the places evenly), or else every revolution
-  // would wear the same spots.
+  // revolution to the next, or else every revolution would wear the same spots. Counted from where the
+  // revolution begins, which need not be a whole number of increments. docs/theory/quasi-static.md#increment
   if (setup_.run.method == Method::quasi_static && period_ > 0.0) {
-    const double places = std::floor(time() / period_) * (std::numbers::phi - 1.0);
+    constexpr double kShift = 0.5698402909980532;  // inverse square of the plastic number
+    const double places = std::floor(time() / period_) * (kShift + period_ / dt_);
     instant += (places - std::floor(places)) * dt_;
   }
   for (std::size_t w = 0; w < walls_.size(); ++w) poses_[w] = walls_[w].pose_at(instant);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "abradem/contact/candidate_kernels.h"
 #include "abradem/contact/patch.h"
 #include "abradem/contact/point_contacts.h"
 #include "abradem/core/hash.h"
@@ -217,11 +218,11 @@ class SphereWall {
   double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
   double tip_area_ = 0.0;                       // of the tip under pressure, of late [m^2]
   wear::RidgeBuilder ridges_;
-  double unpiled_ = 0.0, slid_ = 0.0;  // since the last pile [m^3, m]
-  std::vector<Pressing> ploughing_;    // the last contacts
-  std::vector<Vec3> noted_;            // of each candidate node: where it was when last noted
-  std::vector<double> dx_, dy_, dz_;   // its motion since then, padded [m]
-  std::vector<double> terms_;          // scratch
+  double unpiled_ = 0.0, slid_ = 0.0;                 // since the last pile [m^3, m]
+  std::vector<Pressing> ploughing_;                   // the last contacts
+  std::vector<Vec3> noted_;                           // of each candidate node: where it was when last noted
+  std::vector<contact::kernels::NodeMotion> motion_;  // since then, padded
+  std::vector<double> terms_;                         // scratch
 };
 
 }  // namespace abradem::simulation
