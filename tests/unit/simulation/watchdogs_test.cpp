@@ -275,5 +275,16 @@ TEST(Watchdog, BooksThatDoNotCloseStopTheRunAtTheNextOutput) {
   EXPECT_EQ(stopped(run, static_cast<int>(run.steps_per_output())), "");
 }
 
+TEST(Watchdog, WearSmallerThanTheRoundingOfTheNodesIsNoFault) {
+  simulation::Setup s = small_case(Method::quasi_static);
+  s.walls[0].mesh.position.z = 0.1;
+  s.particles[0].position.z += 0.1;
+  s.wear[0].wear_coefficient = 1e-18;
+  s.run.end = s.output.every = {0.02, true};
+  Simulation run(s);
+  EXPECT_EQ(stopped(run, static_cast<int>(run.total_steps())), "");
+  EXPECT_GT(run.ledger().residual, 1e-9);
+}
+
 }  // namespace
 }  // namespace abradem::simulation
