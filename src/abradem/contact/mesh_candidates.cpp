@@ -91,9 +91,10 @@ ABRADEM_DISPATCH void meet_triangles(const Sweep& sweep, const TriangleMesh& mes
   const Index* __restrict triangle = which.data();
   const Index* __restrict corner = mesh.triangles.data()->data();
   const double* __restrict xyz = &mesh.vertices.data()->x;
-  const auto [cx, cy, cz] = sweep.c;
-  const auto [nx, ny, nz] = sweep.axis;
-  const auto [sx, sy, sz] = sweep.skin.slide;
+  // Plain numbers: clang 16 cannot take structured bindings into an OpenMP loop.
+  const double cx = sweep.c.x, cy = sweep.c.y, cz = sweep.c.z;
+  const double nx = sweep.axis.x, ny = sweep.axis.y, nz = sweep.axis.z;
+  const double sx = sweep.skin.slide.x, sy = sweep.skin.slide.y, sz = sweep.skin.slide.z;
   const double slide2 = norm2(sweep.skin.slide), inverse = slide2 > 0.0 ? 1.0 / slide2 : 0.0;
   const double tangential = sweep.skin.tangential, normal = sweep.skin.normal;
   const double reach2 = sweep.reach * sweep.reach;
