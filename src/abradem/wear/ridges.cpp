@@ -25,6 +25,7 @@ bool RidgeBuilder::gather(const contact::SurfaceView& view, const PloughingConta
 /// Which nodes lie beside the contact, and how much each can take.
 void RidgeBuilder::sort_places(const WearingSurface& surface, const PloughingContact& contact) {
   const Vec3 across = cross(contact.n, contact.forward);
+  const double bend = dot(contact.turning, across);
   const double pressed = contact.deepest - 0.5 * contact.d_e;  // overlap from which on the sphere presses
   const double window =
       std::max({half_length_, std::sqrt(contact.R * contact.d_e), std::sqrt(candidates_.longest_edge2)});
@@ -37,22 +38,26 @@ void RidgeBuilder::sort_places(const WearingSurface& surface, const PloughingCon
   double low = 0.0, high = 0.0, front = 0.0, length = 0.0;  // of what is pressed
   for (std::size_t i = 0; i < candidates_.node_count(); ++i) {
     const Vec3 offset = candidates_.node_position(i) - contact.c;
-    const double x = dot(offset, contact.forward), y = dot(offset, across);
+    const double x = dot(offset, contact.forward);
+    const Vec3 beside = offset - x * contact.forward - (0.5 * x * x * bend) * across;  // of the path
+    const double y = dot(beside, across);
     const double here = overlap_at(offset);
     if (here > pressed) length = std::max(length, std::abs(x)), front = std::max(front, x);
     if (x < -window || x > 2.0 * window) continue;
     // The sphere slides over the whole window: what counts is its middle section.
-    const double section = overlap_at(offset - x * contact.forward);
+    const double section = overlap_at(beside);
     if (section > pressed && std::abs(x) <= window) low = std::min(low, y), high = std::max(high, y);
     near.push_back({i, x, y, pressed - section, pressed - here});
   }
   half_length_ = length;
+  // A ridge grows while the sphere sinks; its flank is that of the sphere halfway. docs/theory/ploughing.md
+  const double halfway = high > low ? std::min(0.5 * contact.cut / (high - low), contact.d_e) : 0.0;
   left_.clear(), right_.clear(), ahead_.clear();
   for (const Near& p : near) {
     const double height = surface.height(candidates_.node[p.node]), area = candidates_.node_area[p.node];
-    if (p.room > 0.0 && std::abs(p.x) <= window) {
-      if (p.y > high) left_.push_back({p.node, p.y, height, p.room, area});
-      if (p.y < low) right_.push_back({p.node, -p.y, height, p.room, area});
+    if (const double room = p.room + halfway; room > 0.0 && std::abs(p.x) <= window) {
+      if (p.y > high) left_.push_back({p.node, p.y, height, room, area});
+      if (p.y < low) right_.push_back({p.node, -p.y, height, room, area});
     }
     if (p.room_here > 0.0 && p.x > front && p.y >= low && p.y <= high)
       ahead_.push_back({p.node, p.x, height, p.room_here, area});
