@@ -22,13 +22,16 @@ bool RidgeBuilder::gather(const contact::SurfaceView& view, const PloughingConta
   return candidates_.node_count() > 0;
 }
 
-/// Which nodes lie beside the contact, and how much each can take.
-void RidgeBuilder::sort_places(const WearingSurface& surface, const PloughingContact& contact) {
+/// Which nodes lie beside the contact, and how much each can take of a volume `side` on either side.
+void RidgeBuilder::sort_places(const WearingSurface& surface, const PloughingContact& contact, double side) {
   const Vec3 across = cross(contact.n, contact.forward);
   const double bend = dot(contact.turning, across);
   const double pressed = contact.deepest - 0.5 * contact.d_e;  // overlap from which on the sphere presses
-  const double window =
-      std::max({half_length_, std::sqrt(contact.R * contact.d_e), std::sqrt(candidates_.longest_edge2)});
+  const double edge = std::sqrt(candidates_.longest_edge2);
+  const double window = std::max({half_length_, std::sqrt(contact.R * contact.d_e), edge});
+  // A pile lies along the whole window: no node takes more than twice what one row of nodes would, or the
+  // lowest of an irregular mesh would become a spike.
+  const double highest = side / (window * edge);
   const auto overlap_at = [&](const Vec3& offset) { return contact.tip.overlap(offset, contact.R); };
   struct Near {
     std::size_t node;
@@ -55,7 +58,7 @@ void RidgeBuilder::sort_places(const WearingSurface& surface, const PloughingCon
   left_.clear(), right_.clear(), ahead_.clear();
   for (const Near& p : near) {
     const double height = surface.height(candidates_.node[p.node]), area = candidates_.node_area[p.node];
-    if (const double room = p.room + halfway; room > 0.0 && std::abs(p.x) <= window) {
+    if (const double room = std::min(p.room + halfway, highest); room > 0.0 && std::abs(p.x) <= window) {
       if (p.y > high) left_.push_back({p.node, p.y, height, room, area});
       if (p.y < low) right_.push_back({p.node, -p.y, height, room, area});
     }
@@ -132,7 +135,7 @@ double RidgeBuilder::pile_up(WearingSurface& surface, const contact::SurfaceView
   double reached = -1.0;
   while (true) {
     if (!gather(view, contact, margin_)) return volume;
-    sort_places(surface, contact);
+    sort_places(surface, contact, side);
     // Wide enough: the sides hold the volume, and the fill ends before the surface seen does.
     const double edge = std::sqrt(candidates_.longest_edge2);
     double furthest = 0.0;

@@ -69,7 +69,7 @@ class RidgeBuilder {
     double area;       // [m^2]
   };
   bool gather(const contact::SurfaceView& view, const PloughingContact& contact, double margin);
-  void sort_places(const WearingSurface& surface, const PloughingContact& contact);
+  void sort_places(const WearingSurface& surface, const PloughingContact& contact, double side);
   [[nodiscard]] static double capacity(const std::vector<Place>& places) noexcept;
   [[nodiscard]] double fill(WearingSurface& surface, const std::vector<Place>& places, double slope,
                             double volume);
