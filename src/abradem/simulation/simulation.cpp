@@ -191,6 +191,7 @@ double Simulation::choose_increment() const {
   constexpr double kShare = 0.2, kRevolutions = 6.5;  // resolves the contact in every single pass
   constexpr double kPatch = 2.0;                      // the contact's length: no spot is left out
   constexpr double kSteepest = 2.5;                   // of alpha E* f; unstable above 5
+  constexpr double kSteepestRidges = 0.75;            // ridges are met by single increments
   const double n = period_ > 0.0 ? end_ / period_ : 0.0;
   double increment = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < particles_.size(); ++p)
@@ -204,7 +205,7 @@ double Simulation::choose_increment() const {
       if (wall.setup().contact == ContactRule::patch && wall.setup().deformation != DeformationRule::paper)
         f = std::clamp(kShare * std::pow(n / kRevolutions, 2.0 / 3.0), kShare, kPatch);
       const double alpha_E = groove_coefficient(particles_.material[p], wall.material()) * properties.E_eff;
-      if (alpha_E > 0.0) f = std::min(f, kSteepest / alpha_E);
+      if (alpha_E > 0.0) f = std::min(f, (ploughs() ? kSteepestRidges : kSteepest) / alpha_E);
       increment = std::min(increment, f * a);
     }
   return increment;
@@ -404,20 +405,26 @@ void Simulation::wear_tip(std::size_t p, std::size_t w) {
 
 /// Of what leaves the groove the removed fraction is lost, and the rest is piled up beside the contact.
 void Simulation::plough(std::size_t p, std::size_t w, double groove_volume) {
-  constexpr double kRevolutions = 24.0, kFurthest = 8.0;  // piles may lie apart where many passes share them
+  // Piles may lie apart where many passes share them.
+  constexpr double kRevolutions = 24.0, kNearest = 0.5, kFurthest = 8.0;
   const double removed = removed_fraction() * groove_volume, displaced = groove_volume - removed;
   law_[w] += removed;
   displaced_[w] += displaced;
   Wall& wall = walls_[w];
   if (wall.is_plane()) return;
   const geometry::Pose& pose = poses_[w];
-  const Vec3 v = pose.turn_back(particles_.velocity[p] - pose.velocity_at(particles_.position[p]));
+  const Vec3& u = particles_.velocity[p];
+  const Vec3 sliding = u - pose.velocity_at(particles_.position[p]), v = pose.turn_back(sliding);
+  // The path over a wall that turns bends, by Coriolis' and the centrifugal acceleration.
+  const double speed2 = norm2(sliding);
+  const Vec3 turning =
+      speed2 > 0.0 ? pose.turn_back(cross(pose.spin, u + sliding)) * (-1.0 / speed2) : Vec3{};
   const double n = period_ > 0.0 ? end_ / period_ : 0.0;
   const wear::Ploughing ploughing{removed_fraction(), std::tan(setup_.ploughing->ridge_angle),
                                   setup_.ploughing->ahead};
   sphere_walls_[p * walls_.size() + w].plough(
       wall, ploughing,
-      {displaced, v, norm(v) * dt_, std::clamp(n / kRevolutions, 1.0, kFurthest), output_due()},
+      {displaced, v, turning, norm(v) * dt_, std::clamp(n / kRevolutions, kNearest, kFurthest), output_due()},
       particles_.radius[p], pair(particles_.material[p], wall.material()));
 }
 

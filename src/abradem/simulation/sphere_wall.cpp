@@ -274,9 +274,9 @@ void SphereWall::plough(Wall& wall, const wear::Ploughing& ploughing, const Disp
     ploughing_.clear();
     for (const Spot& spot : now) {
       const Vec3 forward = normalized(displaced.v - dot(displaced.v, spot.n) * spot.n);
-      ploughing_.push_back(
-          {{centre_, R, tip_, spot.n, forward, spot.deepest, contact::hertz_overlap(pair, R, spot.force)},
-           spot.force});
+      ploughing_.push_back({{centre_, R, tip_, spot.n, forward, displaced.turning, spot.deepest,
+                             contact::hertz_overlap(pair, R, spot.force)},
+                            spot.force});
     }
   }
   if (unpiled_ == 0.0 || ploughing_.empty()) return;
@@ -287,8 +287,9 @@ void SphereWall::plough(Wall& wall, const wear::Ploughing& ploughing, const Disp
   }
   if (!displaced.due && !now.empty() && slid_ < displaced.spacing * length) return;
   double left = 0.0;
-  for (const auto& [contact, F_n] : ploughing_) {
+  for (auto& [contact, F_n] : ploughing_) {
     const double share = unpiled_ * (F_n / force);
+    contact.cut = slid_ > 0.0 ? share / ((1.0 - ploughing.removed_fraction) * slid_) : 0.0;
     left += contact.forward == Vec3{}
                 ? share
                 : ridges_.pile_up(wall.surface(), wall.view(), contact, ploughing, share);

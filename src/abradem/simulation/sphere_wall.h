@@ -107,6 +107,7 @@ class SphereWall {
   struct Displaced {
     double volume = 0.0;   ///< of this step [m^3]
     Vec3 v;                ///< velocity of the sphere over the wall, in the wall's frame [m/s]
+    Vec3 turning;          ///< curvature of its path over the wall [1/m]
     double way = 0.0;      ///< slid in this step [m]
     double spacing = 1.0;  ///< of the piles, in half-lengths of the contact
     bool due = false;      ///< pile up now
