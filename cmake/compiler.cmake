@@ -13,10 +13,14 @@ if(ABRADEM_WERROR)
   target_compile_options(abradem_options INTERFACE -Werror)
 endif()
 if(ABRADEM_SANITIZE)
-  target_compile_options(abradem_options INTERFACE -fsanitize=${ABRADEM_SANITIZE} -fno-omit-frame-pointer)
+  target_compile_options(abradem_options INTERFACE -fsanitize=${ABRADEM_SANITIZE} -fno-sanitize-recover=all
+                         -fno-omit-frame-pointer)
   target_link_options(abradem_options INTERFACE -fsanitize=${ABRADEM_SANITIZE})
   # Function multiversioning resolves through ifunc before the sanitizers are ready.
   target_compile_definitions(abradem_options INTERFACE ABRADEM_NO_DISPATCH)
+endif()
+if(ABRADEM_BUILD_FUZZ)  # coverage for libFuzzer in everything; its main() only in the fuzzers
+  target_compile_options(abradem_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 find_program(ABRADEM_CCACHE ccache)
 if(ABRADEM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

@@ -262,6 +262,12 @@ inline SyntheticStudy published_study(const std::filesystem::path& folder) {
   calibrated.depth_mm = [](double n, double) { return 0.00796 * n / 12.0; };
   calibrated.width_mm = [](double, double) { return 0.78; };
   study.add("calibrated", setup_of(true, 6.81e-11, 1e-4), calibrated);
+  SyntheticRun laboratory = calibrated;
+  laboratory.depth_mm = [](double n, double) { return 0.0121 * n / 12.0; };
+  laboratory.width_mm = [](double, double) { return 0.72; };
+  simulation::Setup ridges = setup_of(true, 6.82e-11, 5e-5);
+  ridges.ploughing = simulation::PloughingSetup{.removed_fraction = 0.54};
+  study.add("laboratory", ridges, laboratory);
   return study;
 }
 

@@ -89,8 +89,10 @@ bool Checkpoints::save(bool running) {
     return true;
   } catch (const IoError& error) {
     log_.warning(fmt::format("no checkpoint was written: {}; the run goes on", error.what()));
-    return false;
+  } catch (const std::bad_alloc&) {
+    log_.warning("no checkpoint was written: out of memory; the run goes on");
   }
+  return false;
 }
 
 void Checkpoints::look() {

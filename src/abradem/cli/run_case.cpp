@@ -176,9 +176,10 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
     if (std::string coarse = coarse_groove(run, *record.last); !coarse.empty()) warn(std::move(coarse));
 }
 
-/// The disk is full or gone, in the middle of a run: says so in the manifest, if that can still be written.
+/// The disk is full or gone, or memory, in the middle of a run: says so in the manifest, if that can still be
+/// written.
 void try_to_record_failure(io::RunRecord& record, const fs::path& folder, const Simulation& run,
-                           const IoError& error) noexcept {
+                           const Error& error) noexcept {
   try {
     record.status = "failed";
     record.exit_code = static_cast<int>(error.code());
@@ -229,6 +230,9 @@ int carry_out(Simulation& run, io::RunRecorder& recorder, RunLog& log, const Car
     if (how.report) report::write_report(how.folder);
   } catch (const IoError& error) {
     try_to_record_failure(record, how.folder, run, error);
+    throw;
+  } catch (const std::bad_alloc&) {
+    try_to_record_failure(record, how.folder, run, Error(ExitCode::internal, "out of memory"));
     throw;
   }
 

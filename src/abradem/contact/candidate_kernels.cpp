@@ -104,25 +104,25 @@ ABRADEM_DISPATCH double least_facing(const MeshCandidates& candidates, const Vec
   return least;
 }
 
-ABRADEM_DISPATCH double centroid_motion(const MeshCandidates& candidates, std::span<const double> excess,
-                                        const double* __restrict dx, const double* __restrict dy,
-                                        const double* __restrict dz, std::vector<double>& scratch) {
+ABRADEM_DISPATCH double centroid_motion(const MeshCandidates& candidates, std::span<const NodeMotion> motion,
+                                        std::vector<double>& scratch) {
+  // A node's four numbers stand together, so that a corner is one addition.
+  using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
+  const auto* node = reinterpret_cast<const Four*>(motion.data());
   const std::size_t count = candidates.padded_triangle_count();
-  if (scratch.size() < count) scratch.resize(count);
-  const std::int32_t* __restrict v0 = candidates.v0.data();
-  const std::int32_t* __restrict v1 = candidates.v1.data();
-  const std::int32_t* __restrict v2 = candidates.v2.data();
-  const double* __restrict e = excess.data();
+  if (scratch.size() < 2 * count) scratch.resize(2 * count);
   const double* __restrict area = candidates.area.data();
   double* __restrict swept = scratch.data();
-#pragma omp simd
+  double* __restrict inside = scratch.data() + count;
   for (std::size_t t = 0; t < count; ++t) {
-    const double x = dx[v0[t]] + dx[v1[t]] + dx[v2[t]];
-    const double y = dy[v0[t]] + dy[v1[t]] + dy[v2[t]];
-    const double z = dz[v0[t]] + dz[v1[t]] + dz[v2[t]];
-    const double highest = larger(larger(e[v0[t]], e[v1[t]]), e[v2[t]]);
-    swept[t] = highest > 0.0 ? std::sqrt(x * x + y * y + z * z) * area[t] * (1.0 / 3.0) : 0.0;
+    const Four sum = node[candidates.v0[t]] + node[candidates.v1[t]] + node[candidates.v2[t]];
+    const Four square = sum * sum;
+    swept[t] = (square[0] + square[1]) + square[2];
+    inside[t] = sum[3];
   }
+#pragma omp simd
+  for (std::size_t t = 0; t < count; ++t)
+    swept[t] = inside[t] > 0.0 ? std::sqrt(swept[t]) * area[t] * (1.0 / 3.0) : 0.0;
   return core::sum_lanes(swept, count);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -26,11 +27,12 @@ void measure_nodes(MeshCandidates& candidates, std::vector<double>& scratch);
 /// turned by more from the (unit) direction than the cosine tells [m^2].
 double least_facing(const MeshCandidates& candidates, const Vec3& direction, double cosine) noexcept;
 
+/// A node's motion [m] along x, y, z, and 1 where it is inside the ball (else 0).
+using NodeMotion = std::array<double, 4>;
+
 /// Sum over the triangles with a corner inside the ball of |motion of the centroid| times area [m^3].
-/// @param excess > 0 inside, of each node, padded
-/// @param dx,dy,dz motion of each node, padded [m]
-/// @param scratch grows as needed
-double centroid_motion(const MeshCandidates& candidates, std::span<const double> excess, const double* dx,
-                       const double* dy, const double* dz, std::vector<double>& scratch);
+/// @param motion of each node, padded   @param scratch grows as needed
+double centroid_motion(const MeshCandidates& candidates, std::span<const NodeMotion> motion,
+                       std::vector<double>& scratch);
 
 }  // namespace abradem::contact::kernels

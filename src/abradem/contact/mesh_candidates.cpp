@@ -210,17 +210,20 @@ void MeshCandidates::number_nodes(const TriangleMesh& mesh) {
   if (numbers.size() < mesh.vertices.size()) numbers.resize(mesh.vertices.size(), -1);
   std::int32_t* const local_of = numbers.data();
   node.clear();
-  v0.clear(), v1.clear(), v2.clear();
-  for (const Index t : triangle) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index v = mesh.triangles[at(t)][k];
-      std::int32_t& local = local_of[at(v)];
-      if (local < 0) {
-        local = static_cast<std::int32_t>(node.size());
-        node.push_back(v);
-      }
-      (k == 0 ? v0 : k == 1 ? v1 : v2).push_back(local);
+  for (auto* array : {&v0, &v1, &v2}) array->resize(triangle.size());
+  const auto local = [&](Index v) {
+    std::int32_t& number = local_of[at(v)];
+    if (number < 0) {
+      number = static_cast<std::int32_t>(node.size());
+      node.push_back(v);
     }
+    return number;
+  };
+  for (std::size_t t = 0; t < triangle.size(); ++t) {
+    const auto& corner = mesh.triangles[at(triangle[t])];
+    v0[t] = local(corner[0]);
+    v1[t] = local(corner[1]);
+    v2[t] = local(corner[2]);
   }
   for (const Index v : node) local_of[at(v)] = -1;
 }

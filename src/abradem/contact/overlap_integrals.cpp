@@ -12,31 +12,42 @@ namespace abradem::contact {
 
 namespace {
 
-/// Integrals over the disc's overlap with the triangle of e^k, k = 1 … kTerms, by Green's theorem: each edge
+/// Integrals over the disc's overlap with the triangle of e^k, k = 1 … terms, by Green's theorem: each edge
 /// adds what it sees from the disc's centre. On the plane e = E - rho^2, so inside the disc the edge integral
-/// is a polynomial; outside it is an angle.
+/// is a polynomial; outside it is an angle. The angles are summed as a product of complex numbers, whose
+/// argument is taken once.
 class DiscIntegrals {
  public:
-  explicit DiscIntegrals(double E) noexcept : E_(E) {}
+  DiscIntegrals(double E, std::size_t terms) noexcept : E_(E), terms_(terms) {}
 
   /// @param h signed distance of the edge's line from the centre   @param t0,t1 ends along it from its foot
   void add_edge(double h, double t0, double t1) noexcept {
+    surrounded_ = surrounded_ && h > 0.0;
     const double w2 = E_ - h * h;  // squared half chord
     const double w = std::sqrt(std::max(w2, 0.0));
     if (t1 <= -w || t0 >= w) {  // nothing of the edge inside
-      angle_ += angle(h, t0, t1);
+      turn(h, t0, t1);
       return;
     }
     const double ta = std::clamp(t0, -w, w), tb = std::clamp(t1, -w, w);
-    if (t0 < ta) angle_ += angle(h, t0, ta);
-    if (tb < t1) angle_ += angle(h, tb, t1);
+    if (t0 < ta) turn(h, t0, ta);
+    if (tb < t1) turn(h, tb, t1);
     add_chord(h, w2, ta, tb);
     cut_ = cut_ || ta < tb;
   }
 
-  /// Does the triangle miss the disc? With no edge inside, the angles sum to nothing (or to a whole turn
-  /// where the triangle holds the disc); round-off of that sum must not look like a contact.
-  [[nodiscard]] bool empty() const noexcept { return !cut_ && angle_ < std::numbers::pi; }
+  /// To be called after the last edge. @return false where the triangle misses the disc
+  [[nodiscard]] bool close() noexcept {
+    angle_ = std::atan2(im_, re_);
+    // Around a centre inside the triangle the angles are positive and sum up to a whole turn at most; from
+    // outside it is seen under half a turn at most, and what else the argument says is round-off.
+    constexpr double pi = std::numbers::pi;
+    if (angle_ < (surrounded_ ? 0.0 : -0.5 * pi)) angle_ += 2.0 * pi;
+    if (!surrounded_) angle_ = std::max(angle_, 0.0);
+    // With no edge inside, the triangle holds the whole disc or none of it.
+    if (!cut_) angle_ = surrounded_ ? 2.0 * pi : 0.0;
+    return cut_ || surrounded_;
+  }
 
   /// Integral of e^k dA over the overlap.
   [[nodiscard]] double moment(std::size_t k) const noexcept {
@@ -46,29 +57,48 @@ class DiscIntegrals {
   }
 
  private:
-  static double angle(double h, double from, double to) noexcept {
-    const double theta = std::atan2(to, std::abs(h)) - std::atan2(from, std::abs(h));
-    return std::copysign(theta, h);
+  /// Turns by the angle under which the centre sees the line from one place to another.
+  void turn(double h, double from, double to) noexcept {
+    const double x = h * h + from * to, y = h * (to - from);
+    const double re = re_ * x - im_ * y;
+    im_ = re_ * y + im_ * x;
+    re_ = re;
   }
 
   void add_chord(double h, double w2, double ta, double tb) noexcept {
     // J_j = integral of (w2 - t^2)^j dt by recursion; S_k = sum_j E^(k-j) J_j.
     const double ea = w2 - ta * ta, eb = w2 - tb * tb;
     double J = tb - ta, pa = ta, pb = tb, S = J;
-    for (std::size_t k = 1; k <= series::kTerms; ++k) {
+    for (std::size_t k = 1; k <= terms_; ++k) {
       pa *= ea;
       pb *= eb;
       const double twice = 2.0 * static_cast<double>(k);
-      J = (pb - pa + twice * w2 * J) / (twice + 1.0);
+      J = (pb - pa + twice * w2 * J) * kInverse[k];
       S = S * E_ + J;
       chord_[k] += h * S;
     }
   }
 
-  double E_, angle_ = 0.0;
-  bool cut_ = false;
+  static constexpr std::array<double, series::kTerms + 1> kInverse = [] {  // 1 / (2 k + 1)
+    std::array<double, series::kTerms + 1> inverse{};
+    for (std::size_t k = 0; k <= series::kTerms; ++k) inverse[k] = 1.0 / (2.0 * static_cast<double>(k) + 1.0);
+    return inverse;
+  }();
+
+  double E_, angle_ = 0.0, re_ = 1.0, im_ = 0.0;
+  std::size_t terms_;
+  bool cut_ = false, surrounded_ = true;
   std::array<double, series::kTerms + 1> chord_{};
 };
+
+/// Terms of the series that a shallow overlap needs: the next is below 1e-13 of M's first, that of e^2.
+std::size_t terms_for(double largest_excess) noexcept {
+  constexpr double kRest = 1e-13;
+  std::size_t terms = 2;
+  for (double power = largest_excess; terms < series::kTerms && power > kRest; ++terms)
+    power *= largest_excess;
+  return terms;
+}
 
 }  // namespace
 
@@ -82,7 +112,9 @@ OverlapIntegrals overlap_of_triangle(const Vec3& a, const Vec3& b, const Vec3& c
   if (E <= 0.0) return {};
 
   const Vec3 foot = -d * n;
-  DiscIntegrals integrals(E);
+  const double R2 = R * R;
+  const std::size_t terms = terms_for(E / R2);
+  DiscIntegrals integrals(E, terms);
   const std::array<Vec3, 3> p{a - foot, b - foot, c - foot};
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3& p0 = p[k];
@@ -92,11 +124,10 @@ OverlapIntegrals overlap_of_triangle(const Vec3& a, const Vec3& b, const Vec3& c
     const double t0 = dot(p0, edge) / length;
     integrals.add_edge(h, t0, t0 + length);
   }
-  if (integrals.empty()) return {};
+  if (!integrals.close()) return {};
 
-  const double R2 = R * R;
   double G = 0.0, M = 0.0, scale = 1.0;
-  for (std::size_t k = 1; k <= series::kTerms; ++k) {
+  for (std::size_t k = 1; k <= terms; ++k) {
     scale /= R2;
     const double I = integrals.moment(k) * scale;
     G += series::kOverlap[k] * I;

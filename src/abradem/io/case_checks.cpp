@@ -405,7 +405,7 @@ class Checker {
         continue;
       }
       if (guided && is_generated(wall.mesh.shape)) {
-        const std::string why = implausible_extent(wall.name, extent(wall.mesh), p.name, p.radius);
+        const std::string why = implausible_extent(wall, p.name, p.radius);
         if (!why.empty()) {
           error(mesh, why);
           return;
@@ -586,6 +586,11 @@ bool counts_revolutions(const Setup& setup) noexcept {
     return (w.motion.kind == MotionKind::rotation && w.motion.rate != 0.0) ||
            (w.motion.kind == MotionKind::oscillation && w.motion.frequency > 0.0);
   });
+}
+
+std::string implausible_extent(const WallSetup& wall, std::string_view particle, double radius) {
+  if (!is_generated(wall.mesh.shape)) return {};
+  return implausible_extent(wall.name, extent(wall.mesh), particle, radius);
 }
 
 std::string implausible_extent(std::string_view wall, double extent, std::string_view particle,

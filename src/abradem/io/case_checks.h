@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -16,9 +17,12 @@ class Places {
  public:
   void set(const std::string& path, const Place& place) { places_[path] = place; }
   void set_wrong(const std::string& path) { wrong_[path] = true; }
+  /// The value was a number without its unit.
+  void set_bare(const std::string& path) { bare_.insert(path); }
 
   /// The place of the key, or of the nearest table around it that was written.
   [[nodiscard]] Place of(std::string path) const;
+  [[nodiscard]] bool bare(const std::string& path) const { return bare_.contains(path); }
   [[nodiscard]] bool given(const std::string& path) const { return places_.contains(path); }
   /// Whether neither the key nor anything inside it was found wrong.
   [[nodiscard]] bool good(const std::string& path) const;
@@ -26,6 +30,7 @@ class Places {
  private:
   std::map<std::string, Place> places_;
   std::map<std::string, bool> wrong_;
+  std::set<std::string> bare_;
 };
 
 /// Adds what is wrong between keys: names that do not exist, pairs that are missing, shapes and positions
@@ -41,6 +46,9 @@ void check_case(const simulation::Setup& setup, const Places& places, Problems& 
 /// Says why a wall of this extent [m] is probably given in the wrong unit of length, seen from a pin of this
 /// radius [m]; empty where the two go together.
 [[nodiscard]] std::string implausible_extent(std::string_view wall, double extent, std::string_view particle,
+                                             double radius);
+/// The same of a generated shape; empty for others.
+[[nodiscard]] std::string implausible_extent(const simulation::WallSetup& wall, std::string_view particle,
                                              double radius);
 
 }  // namespace abradem::io

@@ -14,12 +14,19 @@
 #include "abradem/io/case_schema.h"
 #include "abradem/io/case_study.h"
 #include "abradem/io/case_toml.h"
+#include "abradem/io/case_units.h"
 #include "abradem/io/case_values.h"
 
 namespace abradem::io {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// A number without its unit, or an array with one.
+bool is_bare(const Value& value) {
+  return value.type == Value::Type::integer || value.type == Value::Type::number ||
+         std::ranges::any_of(value.items, is_bare);
+}
 
 /// Walks the table of sections and rows along the tree of the file.
 class CaseReader {
@@ -98,6 +105,7 @@ class CaseReader {
     }
     used.push_back(entry->key);
     places_.set(key_path, entry->value.place);
+    if (!row.unit.empty() && is_bare(entry->value)) places_.set_bare(key_path);
     if (!read_value(row, entry->value, target, problems_)) places_.set_wrong(key_path);
   }
 
@@ -273,6 +281,7 @@ simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems&
   if (!places.given("output.every") && !counts_revolutions(setup))
     setup.output.every = {setup.run.end.value / kFrames, false};
   check_case(setup, places, problems);
+  check_units(setup, places, problems);
   return setup;
 }
 

@@ -13,6 +13,7 @@ using namespace std::string_view_literals;
 // In the order of the enumerations of setup.h.
 constexpr std::array kFrames{"all"sv, "ends"sv, "none"sv};
 constexpr std::array kMethods{"dynamic"sv, "quasi_static"sv};
+constexpr std::array kStabilities{"stop"sv, "warn"sv};
 constexpr std::array kStudyPages{"table"sv, "paper"sv, "scaling"sv};
 
 const std::array kRows{
@@ -41,6 +42,15 @@ const std::array kRows{
         .limits = kPositive,
         .example = "\"20% rayleigh\"",
         .doc = "Step of the integration: a time, or a percentage of the smallest Rayleigh time."},
+    Row{.section = "run",
+        .key = "stability",
+        .kind = Kind::choice,
+        .need = Need::has_default,
+        .slot = ABRADEM_CHOICE(setup->run.stability),
+        .choices = kStabilities,
+        .example = "\"warn\"",
+        .doc = "What a dynamic run does whose step is too long for its contacts, so that disturbances grow a "
+               "thousandfold: stop, or go on and warn."},
     Row{.section = "run",
         .key = "increment",
         .need = Need::optional,

@@ -13,6 +13,15 @@
 // handles "[=" as the error it is. Text a person typed must reach that error, so the assertion is taken out.
 #undef NDEBUG
 #define TOML_ASSERT(expr) static_cast<void>(0)
+// Its tables of Unicode call "unreachable" what is only no letter and no blank (a bare key with U+00B3):
+// there the answer is no.
+#include <toml++/impl/forward_declarations.h>
+#include <toml++/impl/preprocessor.h>
+#pragma push_macro("TOML_UNREACHABLE")
+#undef TOML_UNREACHABLE
+#define TOML_UNREACHABLE return false
+#include <toml++/impl/unicode.h>
+#pragma pop_macro("TOML_UNREACHABLE")
 #include <toml++/toml.h>
 
 namespace abradem::io {

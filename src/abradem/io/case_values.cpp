@@ -150,6 +150,10 @@ class Reader {
     if (read.unit.empty())
       return fmt::format("text without a unit; a bare number, {}, would be in {}",
                          core::format_number(read.number), core::si_unit(dimension_));
+    constexpr double kEarth = 9.80665;  // [m/s^2]
+    if (dimension_ == Dimension{.mass = 1, .length = 1, .time = -2} && read.dimension == Dimension{.mass = 1})
+      return fmt::format("a mass, and a load is a force: its weight is {} N",
+                         core::format_number(kEarth * read.value));
     Dimension turning = dimension_;
     turning.angle = 1;
     if (dimension_ == Dimension{.time = -1} && read.dimension == turning)
@@ -161,10 +165,14 @@ class Reader {
 
   std::optional<double> limited(const Value& value, std::optional<double> number) {
     if (!number || within(*number)) return number;
+    std::string hint;
+    if (!row_.unit.empty() && is_number(value) && *number > row_.limits.high)
+      hint = fmt::format("; a bare number is in {}: was \"{} {}\" meant?", core::si_unit(dimension_),
+                         written(value), row_.unit);
     return wrong(value,
-                 fmt::format("must be {}{}, got {}", describe_limits(row_),
+                 fmt::format("must be {}{}, got {}{}", describe_limits(row_),
                              row_.unit.empty() || row_.limits.low == 0.0 ? "" : fmt::format(" {}", row_.unit),
-                             written(value)));
+                             written(value), hint));
   }
 
   [[nodiscard]] bool within(double v) const {

@@ -188,10 +188,11 @@ std::vector<double> CsvTable::column(std::string_view name) const {
   return out;
 }
 
-CsvTable read_csv(const std::filesystem::path& path) {
-  const std::string text = read_csv_text(path);
+CsvTable read_csv(const std::filesystem::path& path) { return parse_csv(read_csv_text(path), path.string()); }
+
+CsvTable parse_csv(std::string_view text, const std::string& name) {
   const auto refuse = [&](std::size_t line, const std::string& what) {
-    throw IoError(fmt::format("{}:{}: {}", path.string(), line, what));
+    throw IoError(fmt::format("{}:{}: {}", name, line, what));
   };
   if (text.empty()) refuse(1, "the file is empty; expected a header line with the names of the columns");
   CsvTable table;

@@ -83,5 +83,7 @@ struct CsvTable {
 /// of another length, a field that is not one number, a last line without its end (a file cut short).
 /// @throws IoError with file, line and column
 [[nodiscard]] CsvTable read_csv(const std::filesystem::path& path);
+/// The same from memory. @param name what messages call it
+[[nodiscard]] CsvTable parse_csv(std::string_view text, const std::string& name);
 
 }  // namespace abradem::io

@@ -2,6 +2,7 @@
 #include "abradem/report/groove_calibration_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -34,6 +35,14 @@ std::string verdict(const GrooveCalibration& r) {
   if (r.inside) return "Volume, depth and width are all inside what was measured.";
   return r.at_limit ? "No parameters reach what was measured; these come closest, at the end of a range."
                     : "These parameters come closest to what was measured.";
+}
+
+/// What the measurement leaves open, as a sentence with a space before it; empty when nothing.
+std::string open_parameters(const GrooveCalibration& r) {
+  const std::vector<std::string> names = study::undetermined(r);
+  return names.empty() ? ""
+                       : fmt::format(" The measurement does not tell the {}: see what to measure besides.",
+                                     fmt::join(names, ", nor the "));
 }
 
 /// The direction that the measurement tells least, in words.
@@ -108,7 +117,8 @@ std::string aligned(const std::vector<std::string>& columns,
 }  // namespace
 
 std::string groove_calibration_text(const GrooveCalibration& r) {
-  std::string text = verdict(r) + "\n\n" + aligned(kParameterColumns, parameter_rows(r)) + "\n" +
+  std::string text = verdict(r) + open_parameters(r) + "\n\n" +
+                     aligned(kParameterColumns, parameter_rows(r)) + "\n" +
                      aligned(kMatchedColumns, matched_rows(r));
   text += fmt::format("\nIntervals of {} %; {} trials of {} revolutions.\n", number(100.0 * r.coverage),
                       r.runs, number(r.revolutions));
@@ -170,7 +180,7 @@ std::string groove_calibration_json(const GrooveCalibration& r) {
 Page groove_calibration_page(const GrooveCalibration& r, const std::string& title) {
   Page page;
   page.title = title.empty() ? "Calibration of the groove" : "Calibration of the groove: " + title;
-  page.summary = verdict(r);
+  page.summary = verdict(r) + open_parameters(r);
   page.cards = {{"wear coefficient", number(r.calibrated.parameters[0]) + " 1/Pa"},
                 {"pin to disc", number(r.calibrated.parameters[1])},
                 {"removed fraction", number(r.calibrated.parameters[2])}};

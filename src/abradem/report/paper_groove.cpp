@@ -120,6 +120,24 @@ double pin_modulus(const FinishedRun& run) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+double removed_fraction(const FinishedRun& run) {
+  return run.setup().ploughing ? run.setup().ploughing->removed_fraction : 1.0;
+}
+
+/// "depth, width": what lies inside the measured ranges, the volume within one standard deviation.
+std::string inside(const GrooveResult& r, const simulation::MeasurementSetup& measured) {
+  std::string text;
+  const auto note = [&](bool in, const char* what) {
+    if (in) text += (text.empty() ? "" : ", ") + std::string(what);
+  };
+  constexpr double kMm = 1e3, kMm3 = 1e9;
+  if (const auto& d = measured.depth) note(r.depth >= kMm * d->low && r.depth <= kMm * d->high, "depth");
+  if (const auto& w = measured.width) note(r.width >= kMm * w->low && r.width <= kMm * w->high, "width");
+  if (const auto& v = measured.wear_volume)
+    note(std::abs(r.volume - kMm3 * v->mean) <= kMm3 * v->sd, "volume");
+  return text.empty() ? "none" : text;
+}
+
 }  // namespace
 
 std::optional<Figure> fig17_wear_profile(const PaperRuns& runs) {
@@ -192,10 +210,10 @@ std::optional<Figure> fig18_against_test(const PaperRuns& runs) {
            .colour = colour++});
     }
   };
+  constexpr std::size_t kThree[] = {0, 3, 6};
   const FinishedRun* calibrated = runs.readings[0].with_coefficient(1.7e-11);
   if (calibrated != nullptr) {
     Panel panel = start(fmt::format("{}, α = 1.7e-11 1/Pa", runs.readings[0].name));
-    constexpr std::size_t kThree[] = {0, 3, 6};
     add(panel, *calibrated, kThree, 0, "");
     figure.panels.push_back(std::move(panel));
   }
@@ -207,11 +225,16 @@ std::optional<Figure> fig18_against_test(const PaperRuns& runs) {
       add(panel, run, kOne, colour++, fmt::format("pin of {:.3g} GPa", 1e-9 * pin_modulus(run)));
     figure.panels.push_back(std::move(panel));
   }
+  if (runs.laboratory) {
+    Panel panel = start("conserving, with a worn pin and ridges");
+    add(panel, *runs.laboratory, kThree, 0, "");
+    figure.panels.push_back(std::move(panel));
+  }
   if (figure.panels.empty()) return {};
   figure.caption =
       "Grey: the ranges that the paper gives for its three measured contours; it prints no coordinates. The "
-      "measured groove "
-      "has ploughed ridges and a worn pin, neither of which is modelled.";
+      "measured groove has ploughed ridges and a worn pin.";
+  if (runs.laboratory) figure.caption += " Both are in the last panel only.";
   return figure;
 }
 
@@ -236,12 +259,16 @@ std::optional<DataTable> table4(const PaperRuns& runs) {
         result_of(run, runs.readings[1],
                   fmt::format("conserving, {:.6g} revolutions at {:.3g} 1/Pa, pin of {:.3g} GPa",
                               run.last_revolution(), run.wear_coefficient(), 1e-9 * pin_modulus(run))));
+  if (runs.laboratory)
+    rows.push_back(result_of(*runs.laboratory, runs.readings[1],
+                             fmt::format("the same pin, worn, and ridges: {} % of the groove removed",
+                                         readable(100.0 * removed_fraction(*runs.laboratory), 3))));
   if (rows.empty()) return {};
   rows.insert(rows.begin(), {test, theirs});
   DataTable table{.id = "table4-against-test",
                   .title = "Against the test (Table 4)",
                   .columns = {"result", "depth [mm]", "depth off", "width [mm]", "width off", "volume [mm³]",
-                              "volume off", "2/3 depth · width · track [mm³]"}};
+                              "volume off", "inside what was measured", "2/3 depth · width · track [mm³]"}};
   table.caption =
       "Discrepancies as the paper computes them, against the largest of three measured depths and widths "
       "(the measured ranges "
@@ -254,7 +281,7 @@ std::optional<DataTable> table4(const PaperRuns& runs) {
     table.rows.push_back({r.name, readable(r.depth, 3), is_test ? "" : discrepancy(r.depth, test.depth),
                           readable(r.width, 3), is_test ? "" : discrepancy(r.width, test.width),
                           readable(r.volume, 3), is_test ? "" : discrepancy(r.volume, test.volume),
-                          readable(shape, 3)});
+                          inside(r, runs.measured), readable(shape, 3)});
   }
   return table;
 }

@@ -163,6 +163,7 @@ PaperRuns read_paper_runs(const simulation::Setup& study, std::span<const StudyR
     if (run.variation == kSeedRuns) reading.seeds.push_back(read_finished(run));
     if (run.variation == kProfileRuns) reading.profile = read_finished(run);
     if (run.variation == kCalibratedRuns) out.calibrated.push_back(read_finished(run));
+    if (run.variation == kLaboratoryRuns) out.laboratory = read_finished(run);
   }
   for (PaperReading& reading : out.readings) {
     std::ranges::stable_sort(reading.mesh_sizes, {}, &FinishedRun::mesh_size);

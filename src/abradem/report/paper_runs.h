@@ -70,8 +70,9 @@ struct PaperReading {
 };
 
 struct PaperRuns {
-  std::array<PaperReading, 2> readings;  ///< the paper's rules, conserving
-  std::vector<FinishedRun> calibrated;   ///< conserving, by ascending E*
+  std::array<PaperReading, 2> readings;   ///< the paper's rules, conserving
+  std::vector<FinishedRun> calibrated;    ///< conserving, by ascending E*
+  std::optional<FinishedRun> laboratory;  ///< conserving, with a worn pin and ridges
   PublishedValues published;
   simulation::MeasurementSetup measured;
   double load = 0.0;          ///< on the pin [N]
@@ -87,7 +88,8 @@ inline constexpr std::string_view kMeshWidth = "displaced_width_mm";
 /// Names of the variations that are drawn from.
 inline constexpr std::string_view kMeshSizeRuns = "mesh_size", kRevolutionRuns = "revolutions",
                                   kCoefficientRuns = "wear_coefficient", kSeedRuns = "seed",
-                                  kProfileRuns = "profile", kCalibratedRuns = "calibrated";
+                                  kProfileRuns = "profile", kCalibratedRuns = "calibrated",
+                                  kLaboratoryRuns = "laboratory";
 
 /// @throws IoError when a finished run's tables, or the published values, are damaged
 [[nodiscard]] PaperRuns read_paper_runs(const simulation::Setup& study, std::span<const StudyRun> runs);

@@ -12,6 +12,7 @@
 #include "abradem/io/atomic_file.h"
 #include "abradem/report/page_parts.h"
 #include "abradem/report/page_source.h"
+#include "abradem/report/pin_and_ridges_section.h"
 #include "abradem/report/sections.h"
 #include "abradem/report/statistics_section.h"
 #include "abradem/report/text.h"
@@ -125,7 +126,10 @@ double track_radius_mm(const RunFolder& run) {
   return sections > 0 ? sum / sections : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<PageSection> statistics(const RunFolder& run) {
+/// The sections that are made as those of other pages are.
+std::vector<PageSection> numbered_sections(const RunFolder& run) {
+  std::vector<PageSection> sections;
+  if (std::optional<PageSection> pin = pin_and_ridges_section(run)) sections.push_back(std::move(*pin));
   GrooveSeries series = groove_series(run.contours);
   series.counted = run.manifest.counted;
   if (series.counted == "revolution")
@@ -136,7 +140,8 @@ std::vector<PageSection> statistics(const RunFolder& run) {
     series.grown.push_back({"swept volume", "mm³", run.revolutions["swept_volume_mm3"]});
     series.grown.push_back({"volume by eq. 10-12", "mm³", run.revolutions["paper_volume_mm3"]});
   }
-  return {statistics_section(series)};
+  sections.push_back(statistics_section(series));
+  return sections;
 }
 
 constexpr int kFigures = 10;  ///< of run.html
@@ -148,7 +153,7 @@ std::string page_of(const RunFolder& run, const std::vector<PageSection>& sectio
                 .title = page_title(run),
                 .lead = verdict(run),
                 .body = fill(run_body(), {{"cards", verdict_cards(run)},
-                                          {"statistics", numbers.html},
+                                          {"numbered", numbers.html},
                                           {"ledger", ledger_table(run)},
                                           {"limits", limits_and_warnings(run)},
                                           {"inputs", inputs(run)},
@@ -159,12 +164,12 @@ std::string page_of(const RunFolder& run, const std::vector<PageSection>& sectio
 
 }  // namespace
 
-std::string make_page(const RunFolder& run) { return page_of(run, statistics(run)); }
+std::string make_page(const RunFolder& run) { return page_of(run, numbered_sections(run)); }
 
 std::filesystem::path write_report(const std::filesystem::path& run_folder) {
   std::filesystem::path page = run_folder / "report.html";
   const RunFolder run = read_run_folder(run_folder);
-  const std::vector<PageSection> sections = statistics(run);
+  const std::vector<PageSection> sections = numbered_sections(run);
   write_section_tables(run_folder, sections);
   io::write_file_atomically(page, page_of(run, sections));
   return page;

@@ -26,6 +26,22 @@ constexpr std::array kProfiles = {"revolution"sv, "angle_deg"sv, "radius_mm"sv, 
 constexpr std::array kForce = {"time_s"sv,     "revolution"sv, "normal_force_N"sv, "tangential_force_N"sv,
                                "overlap_um"sv, "contacts"sv};
 
+constexpr std::array kRidges = {"revolution"sv,           "groove_volume_mm3"sv,   "removed_volume_mm3"sv,
+                                "displaced_volume_mm3"sv, "piled_volume_mm3"sv,    "ridge_height_mean_mm"sv,
+                                "ridge_height_sd_mm"sv,   "ridge_area_mean_mm2"sv, "groove_area_mean_mm2"sv};
+constexpr std::array kTip = {"revolution"sv, "particle"sv,      "law_volume_mm3"sv, "removed_volume_mm3"sv,
+                             "mass_ug"sv,    "flat_along_mm"sv, "flat_across_mm"sv};
+constexpr std::array kTipProfile = {"particle"sv, "distance_mm"sv, "sphere_um"sv, "recession_along_um"sv,
+                                    "recession_across_um"sv};
+
+/// A table that only some runs write.
+std::optional<Table> read_if_there(const std::filesystem::path& file,
+                                   std::span<const std::string_view> required) {
+  std::error_code code;
+  if (!std::filesystem::exists(file, code)) return std::nullopt;
+  return read_table(file, required);
+}
+
 std::string read_case(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
@@ -99,6 +115,9 @@ RunFolder read_run_folder(const std::filesystem::path& folder) {
   run.contours = read_table(tables / "contours.csv", kContours);
   run.profiles = read_table(tables / "profiles.csv", kProfiles);
   run.force = read_table(tables / "force.csv", kForce);
+  run.ridges = read_if_there(tables / "ridges.csv", kRidges);
+  run.tip = read_if_there(tables / "tip.csv", kTip);
+  run.tip_profile = read_if_there(tables / "tip_profile.csv", kTipProfile);
   read_surface(run);
   return run;
 }

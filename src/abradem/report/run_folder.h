@@ -17,11 +17,12 @@ struct RunFolder {
   Manifest manifest;
   std::string resolved_case;  ///< case.resolved.toml, as it stands
   Table revolutions, contours, profiles, force;
+  std::optional<Table> ridges, tip, tip_profile;  ///< of runs that plough, or wear their pins
   std::optional<WornSurface> surface;
   std::string surface_note;  ///< why there is no surface, when there is none
 };
 
-/// Reads run.json, case.resolved.toml, the four tables and, from series.pvd, the first and the last frame of
+/// Reads run.json, case.resolved.toml, the tables and, from series.pvd, the first and the last frame of
 /// the wall that wore most. A run that wrote no frames, or no wear, has no surface, which is no error.
 /// @throws IoError when a file is missing or damaged
 [[nodiscard]] RunFolder read_run_folder(const std::filesystem::path& folder);

@@ -77,9 +77,11 @@ Table read_table(const std::filesystem::path& file, std::span<const std::string_
   table.file = file.string();
   std::size_t line = 0;
   for (std::size_t from = 0; from < text.size();) {
-    const std::size_t end = std::min(text.find('\n', from), text.size());
+    const std::size_t end = text.find('\n', from);
+    // Killed while it was written: of half a number nothing can be said.
+    if (end == std::string::npos && !table.names.empty()) break;
     const std::string_view content = trimmed(std::string_view(text).substr(from, end - from));
-    from = end + 1;
+    from = end == std::string::npos ? text.size() : end + 1;
     ++line;
     if (content.empty()) continue;
     const auto fields = split(content);

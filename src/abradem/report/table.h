@@ -22,7 +22,8 @@ struct Table {
 };
 
 /// Reads a comma-separated file whose first line names the columns. Fields are numbers; an empty field or
-/// "nan" is NaN. More columns than required are welcome, in any order.
+/// "nan" is NaN. More columns than required are welcome, in any order. A last row without its end, of a run
+/// that was killed, is left out.
 /// @throws IoError when the file is missing or unreadable, a required column is missing, a row has another
 ///         number of fields than the header, or a field is not a number (with file, line and column)
 [[nodiscard]] Table read_table(const std::filesystem::path& file, std::span<const std::string_view> required);

@@ -26,7 +26,7 @@ bool outside(const DomainSetup& d, const Vec3& p) noexcept {
 
 Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
            const std::vector<material::PairProperties>& properties, const Particles& named)
-    : walls_(setup.walls.size()), domain_(setup.domain) {
+    : walls_(setup.walls.size()), domain_(setup.domain), names_(named.name) {
   table_.materials = materials.size();
   for (const material::PairProperties& p : properties) {
     table_.pair.push_back(contact::PairConstants::of(p));
@@ -158,8 +158,8 @@ void Bulk::check(const Surroundings& around, std::uint64_t step) const {
     // Positions are one step on, so what was a hair too deep may no longer be.
     if (overlap > 0.95 * contact::kDeepest * i.radius * j.radius / (i.radius + j.radius))
       fail(at(list_.owner[k]),
-           fmt::format("its overlap with particle {} is {:.4g} mm, more than a tenth of the radius",
-                       spheres_.id[at(list_.partner[k])], 1e3 * overlap),
+           fmt::format("its overlap with {} is {:.4g} mm, more than a tenth of the radius",
+                       title(at(list_.partner[k])), 1e3 * overlap),
            around, step);
   }
   for (const BulkWalls::NearMesh& m : walls_.meshes())
@@ -172,14 +172,19 @@ void Bulk::check(const Surroundings& around, std::uint64_t step) const {
   fail(0, "it or another one overlaps a wall by more than a tenth of its radius", around, step);
 }
 
+std::string Bulk::title(std::size_t i) const {
+  const std::int32_t id = spheres_.id[i];
+  return id < named_ ? fmt::format("particle '{}'", names_[at(id)]) : fmt::format("particle {}", id);
+}
+
 void Bulk::fail(std::size_t i, const std::string& what, const Surroundings& around,
                 std::uint64_t step) const {
   const contact::SphereRow& s = spheres_.row[i];
   throw SimulationError(
-      fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) mm, step {}, {:.6g} s: {}. Shorten the time step, "
+      fmt::format("{} at ({:.4g}, {:.4g}, {:.4g}) mm, step {}, {:.6g} s: {}. Shorten the time step, "
                   "or check the "
                   "stiffness, the speeds and the starting positions",
-                  spheres_.id[i], 1e3 * s.x, 1e3 * s.y, 1e3 * s.z, step, around.time, what));
+                  title(i), 1e3 * s.x, 1e3 * s.y, 1e3 * s.z, step, around.time, what));
 }
 
 BulkState Bulk::state(const std::vector<material::PairProperties>& properties) const {

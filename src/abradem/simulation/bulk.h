@@ -73,6 +73,7 @@ class Bulk {
  private:
   void take_in(double time);
   void take_out();
+  [[nodiscard]] std::string title(std::size_t i) const;
   void find_named();
   void fetch_named(const Particles& named);
   [[noreturn]] void fail(std::size_t i, const std::string& what, const Surroundings& around,
@@ -86,6 +87,7 @@ class Bulk {
   std::vector<Inserter> inserters_;
   std::optional<DomainSetup> domain_;
   std::vector<std::size_t> place_of_named_;
+  std::vector<std::string> names_;
   std::int32_t named_ = 0, next_id_ = 0;
   double skin_ = 0.0, travelled_ = 0.0, wall_time_ = 0.0;  // since the lists were made
   bool worn_out_ = true, sound_ = true;

@@ -181,6 +181,9 @@ struct Duration {
 
 enum class Method { dynamic, quasi_static };
 
+/// What a run does whose time step is too long for its contacts: it stops, or goes on with a warning.
+enum class Stability { stop, warn };
+
 /// A step given in seconds, or as a fraction of the smallest Rayleigh time.
 struct TimeStep {
   double value = 0.2;
@@ -192,6 +195,7 @@ struct RunSetup {
   Duration end;
   Method method = Method::dynamic;
   TimeStep time_step;
+  Stability stability = Stability::stop;
   std::optional<double>
       increment;           ///< quasi_static: sliding distance per step [m]; default: chosen from the contact
   Vec3 gravity;            ///< [m/s^2]

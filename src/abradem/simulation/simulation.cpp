@@ -52,6 +52,7 @@ Simulation::Simulation(Setup setup, const MeshSource& source) : setup_(std::move
   choose_time_step();
   poses_.resize(walls_.size());
   move_walls();
+  limit_energies();
 }
 
 void Simulation::find_pair_properties() {
@@ -167,6 +168,7 @@ void Simulation::add_particles() {
   particles_.force.resize(particles_.size());
   particles_.torque.resize(particles_.size());
   stiffness_ratio_.assign(particles_.size(), 0.0);
+  growth_.assign(particles_.size(), 0.0);
   if (particles_.size() > 1 || !setup_.insertions.empty())
     bulk_.emplace(setup_, materials_, pairs_, particles_);
 }
@@ -209,9 +211,10 @@ void Simulation::add_tips() {
 /// Sliding distance per step of `quasi_static`, as shares f of the contact's half-width a [m].
 /// docs/theory/quasi-static.md#increment
 double Simulation::choose_increment() const {
-  constexpr double kShare = 0.2, kRevolutions = 12.0;  // resolves the contact in every single pass
-  constexpr double kPatch = 2.0;                       // the contact's length: no spot is left out
-  constexpr double kSteepest = 2.5;                    // of alpha E* f; unstable above 5
+  constexpr double kShare = 0.2, kRevolutions = 6.5;  // resolves the contact in every single pass
+  constexpr double kPatch = 2.0;                      // the contact's length: no spot is left out
+  constexpr double kSteepest = 2.5;                   // of alpha E* f; unstable above 5
+  constexpr double kSteepestRidges = 0.75;            // ridges are met by single increments
   const double n = period_ > 0.0 ? end_ / period_ : 0.0;
   double increment = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < particles_.size(); ++p)
@@ -225,7 +228,7 @@ double Simulation::choose_increment() const {
       if (wall.setup().contact == ContactRule::patch && wall.setup().deformation != DeformationRule::paper)
         f = std::clamp(kShare * std::pow(n / kRevolutions, 2.0 / 3.0), kShare, kPatch);
       const double alpha_E = groove_coefficient(particles_.material[p], wall.material()) * properties.E_eff;
-      if (alpha_E > 0.0) f = std::min(f, kSteepest / alpha_E);
+      if (alpha_E > 0.0) f = std::min(f, (ploughs() ? kSteepestRidges : kSteepest) / alpha_E);
       increment = std::min(increment, f * a);
     }
   return increment;
@@ -308,10 +311,11 @@ bool Simulation::advance(const std::function<bool()>& watch) {
 void Simulation::move_walls() {
   double instant = time();
   // An increment stands for the distance it slides: where in it the balance is struck differs from one
-  // revolution to the next (by the golden ratio, which spreads the places evenly), or else every revolution
-  // would wear the same spots.
+  // revolution to the next, or else every revolution would wear the same spots. Counted from where the
+  // revolution begins, which need not be a whole number of increments. docs/theory/quasi-static.md#increment
   if (setup_.run.method == Method::quasi_static && period_ > 0.0) {
-    const double places = std::floor(time() / period_) * (std::numbers::phi - 1.0);
+    constexpr double kShift = 0.5698402909980532;  // inverse square of the plastic number
+    const double places = std::floor(time() / period_) * (kShift + period_ / dt_);
     instant += (places - std::floor(places)) * dt_;
   }
   for (std::size_t w = 0; w < walls_.size(); ++w) poses_[w] = walls_[w].pose_at(instant);
@@ -384,7 +388,8 @@ void Simulation::deform_walls() {
       paper_[w] += surface.deform_paper();
     else if (due || (steps_ + 1) % static_cast<std::uint64_t>(setup.deform_every) == 0)
       surface.deform_conserving();
-    if (due) surface.check_orientation();  // elements beside the worn ones turn slowly
+    constexpr std::uint64_t kBetweenChecks = 4096;  // elements beside the worn ones turn slowly
+    if (due || (steps_ + 1) % kBetweenChecks == 0) surface.check_orientation();
     const wear::DeformGuards& guards = surface.guards();
     if (guards.fatal_steps > 0 || guards.flipped > 0)
       throw SimulationError(fmt::format(
@@ -418,34 +423,10 @@ void Simulation::record() {
   if (bulk_) bulk_->check(surroundings(), steps_);
   watch_stability();
   ++steps_;
-  if (steps_ % steps_per_output_ == 0 || finished()) book_elements();
+  const bool due = steps_ % steps_per_output_ == 0 || finished();
+  if (due) book_elements();
+  if (due || ledger_due()) check_ledger();
   if (observer_) observer_(*this);
-}
-
-void Simulation::check_state() const {
-  constexpr double kDeepest = 0.1;  // of the radius: Hertz's small contact is long gone
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    const auto fail = [&](const std::string& what) {
-      throw SimulationError(
-          fmt::format("particle '{}', step {}, {:.6g} s: {}. Shorten the time step, or check the "
-                      "load, the stiffness and the starting position",
-                      particles_.name[p], steps_, time(), what));
-    };
-    if (!is_finite(particles_.position[p]) || !is_finite(particles_.velocity[p]))
-      fail("its position or speed is no longer a number");
-    // A guided sphere that has sunk by its own radius has no wall under it any more.
-    const Vec3& guide = particles_.guide[p];
-    if (dot(particles_.position[p] - setup_.particles[p].position, guide) > particles_.radius[p])
-      fail("it has moved by more than its radius along its guide: it has left the walls");
-    // A faster one may pass through a wall between two steps.
-    if (const double way = norm(particles_.velocity[p]) * dt_; way > kDeepest * particles_.radius[p])
-      fail(fmt::format("it moves {:.4g} mm in one step, more than a tenth of its radius", 1e3 * way));
-    for (std::size_t w = 0; w < walls_.size(); ++w)
-      for (const SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches())
-        if (t.overlap > kDeepest * particles_.radius[p])
-          fail(fmt::format("its overlap with wall '{}' is {:.4g} mm, more than a tenth of its radius",
-                           walls_[w].setup().name, 1e3 * t.overlap));
-  }
 }
 
 ForceSample Simulation::force_on(std::size_t p) const noexcept {

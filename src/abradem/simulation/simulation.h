@@ -196,7 +196,10 @@ class Simulation {
   void find_equilibrium(std::size_t p);
   [[nodiscard]] double slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept;
   void book_elements();
+  void limit_energies();
   void check_state() const;
+  [[nodiscard]] bool ledger_due() const noexcept;
+  void check_ledger();
   void watch_stability();
 
   Setup setup_;
@@ -219,6 +222,8 @@ class Simulation {
   std::vector<double>
       stiffness_ratio_;         // quasi_static: of each particle's contact, to Hertz's; 0: not measured yet
   double worst_damping_ = 0.0;  // largest 2 g + W met
+  std::vector<double> growth_;  // of a disturbance of each particle, while its steps are too long: ln [-]
+  std::vector<double> energy_limit_;  // kinetic, of each particle: none that moves rightly has it [J]
 };
 
 /// Resolves a duration to seconds. @throws InputError when it is in revolutions and nothing turns

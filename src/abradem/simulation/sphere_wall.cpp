@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "abradem/contact/candidate_kernels.h"
+#include "abradem/geometry/closest_point.h"
 
 namespace abradem::simulation {
 
@@ -302,9 +302,9 @@ void SphereWall::plough(Wall& wall, const wear::Ploughing& ploughing, const Disp
     ploughing_.clear();
     for (const Spot& spot : now) {
       const Vec3 forward = normalized(displaced.v - dot(displaced.v, spot.n) * spot.n);
-      ploughing_.push_back(
-          {{centre_, R, tip_, spot.n, forward, spot.deepest, contact::hertz_overlap(pair, R, spot.force)},
-           spot.force});
+      ploughing_.push_back({{centre_, R, tip_, spot.n, forward, displaced.turning, spot.deepest,
+                             contact::hertz_overlap(pair, R, spot.force)},
+                            spot.force});
     }
   }
   if (unpiled_ == 0.0 || ploughing_.empty()) return;
@@ -315,8 +315,9 @@ void SphereWall::plough(Wall& wall, const wear::Ploughing& ploughing, const Disp
   }
   if (!displaced.due && !now.empty() && slid_ < displaced.spacing * length) return;
   double left = 0.0;
-  for (const auto& [contact, F_n] : ploughing_) {
+  for (auto& [contact, F_n] : ploughing_) {
     const double share = unpiled_ * (F_n / force);
+    contact.cut = slid_ > 0.0 ? share / ((1.0 - ploughing.removed_fraction) * slid_) : 0.0;
     left += contact.forward == Vec3{}
                 ? share
                 : ridges_.pile_up(wall.surface(), wall.view(), contact, ploughing, share);
@@ -383,27 +384,28 @@ double SphereWall::pending_volume() const noexcept {
 void SphereWall::add_centroid_motion(const Wall& wall) {
   if (wall.setup().deformation != DeformationRule::conserving) return;
   const geometry::TriangleMesh& mesh = wall.surface().mesh();
+  const bool patch = wall.setup().contact == ContactRule::patch;
+  const std::span<const double> excess = patches_.node_excess();
   bool moved = false;
   for (std::size_t i = 0; i < noted_.size(); ++i) {
     const Vec3& now = mesh.vertices[at(candidates_.node[i])];
     const Vec3 motion = now - noted_[i];
     noted_[i] = now;
-    dx_[i] = motion.x, dy_[i] = motion.y, dz_[i] = motion.z;
+    motion_[i] = {motion.x, motion.y, motion.z, patch && excess[i] > 0.0 ? 1.0 : 0.0};
     moved = moved || motion != Vec3{};
   }
   if (!moved) return;
-  if (wall.setup().contact == ContactRule::patch) {
-    centroid_volume_ += contact::kernels::centroid_motion(candidates_, patches_.node_excess(), dx_.data(),
-                                                          dy_.data(), dz_.data(), terms_);
+  if (patch) {
+    centroid_volume_ += contact::kernels::centroid_motion(candidates_, motion_, terms_);
     return;
   }
   for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
     const auto of_touch = [&](const Touch& touch) { return touch.part == static_cast<int>(t); };
     if (std::ranges::none_of(touches_, of_touch)) continue;
-    const auto sum = [&](const std::vector<double>& d) {
-      return d[at(candidates_.v0[t])] + d[at(candidates_.v1[t])] + d[at(candidates_.v2[t])];
-    };
-    centroid_volume_ += norm(Vec3{sum(dx_), sum(dy_), sum(dz_)}) * candidates_.area[t] / 3.0;
+    Vec3 sum;
+    for (const std::int32_t v : {candidates_.v0[t], candidates_.v1[t], candidates_.v2[t]})
+      sum += Vec3{motion_[at(v)][0], motion_[at(v)][1], motion_[at(v)][2]};
+    centroid_volume_ += norm(sum) * candidates_.area[t] / 3.0;
   }
 }
 
@@ -423,9 +425,22 @@ int SphereWall::elements(const Wall& wall) const {
   return std::max(count, static_cast<int>(touches_.size()));
 }
 
+geometry::Index SphereWall::nearest_triangle(const Vec3& c) const noexcept {
+  geometry::Index nearest = -1;
+  double distance2 = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
+    const auto corner = [&](std::int32_t v) { return candidates_.node_position(at(v)); };
+    const Vec3 point = geometry::closest_point_on_triangle(
+                           c, corner(candidates_.v0[t]), corner(candidates_.v1[t]), corner(candidates_.v2[t]))
+                           .point;
+    if (norm2(point - c) < distance2) distance2 = norm2(point - c), nearest = candidates_.triangle[t];
+  }
+  return nearest;
+}
+
 void SphereWall::note_nodes() {
   noted_.resize(candidates_.node_count());
-  for (auto* array : {&dx_, &dy_, &dz_}) array->assign(candidates_.x.size(), 0.0);
+  motion_.assign(candidates_.x.size(), {});
   for (std::size_t i = 0; i < noted_.size(); ++i) noted_[i] = candidates_.node_position(i);
 }
 
@@ -435,7 +450,7 @@ bool SphereWall::restore(const Wall& wall) {
   if (wall.is_plane()) return true;
   if (!candidates_.restore(wall.surface().mesh())) return false;
   const std::size_t nodes = candidates_.node_count(), padded = candidates_.x.size();
-  for (auto* array : {&dx_, &dy_, &dz_}) array->assign(padded, 0.0);
+  motion_.assign(padded, {});
   return (noted_.empty() || noted_.size() == nodes) &&
          (node_pending_.empty() || node_pending_.size() == padded) &&
          (patches_.node_excess().empty() || patches_.node_excess().size() == padded);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "abradem/contact/candidate_kernels.h"
 #include "abradem/contact/patch.h"
 #include "abradem/contact/point_contacts.h"
 #include "abradem/core/hash.h"
@@ -113,6 +114,7 @@ class SphereWall {
   struct Displaced {
     double volume = 0.0;   ///< of this step [m^3]
     Vec3 v;                ///< velocity of the sphere over the wall, in the wall's frame [m/s]
+    Vec3 turning;          ///< curvature of its path over the wall [1/m]
     double way = 0.0;      ///< slid in this step [m]
     double spacing = 1.0;  ///< of the piles, in half-lengths of the contact
     bool due = false;      ///< pile up now
@@ -138,6 +140,10 @@ class SphereWall {
   void book_elements(Wall& wall);
   /// Wear of elements not yet handed over [m^3].
   [[nodiscard]] double pending_volume() const noexcept;
+
+  /// The triangle that is nearest to the sphere at c, in the wall's frame; -1 where none is near, or for a
+  /// plane.
+  [[nodiscard]] geometry::Index nearest_triangle(const Vec3& c) const noexcept;
 
   /// Adds what the next step depends on: the contacts' springs.
   void add_to(core::StateHash& hash) const;
@@ -222,11 +228,11 @@ class SphereWall {
   double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
   double tip_area_ = 0.0;                       // of the tip under pressure, of late [m^2]
   wear::RidgeBuilder ridges_;
-  double unpiled_ = 0.0, slid_ = 0.0;  // since the last pile [m^3, m]
-  std::vector<Pressing> ploughing_;    // the last contacts
-  std::vector<Vec3> noted_;            // of each candidate node: where it was when last noted
-  std::vector<double> dx_, dy_, dz_;   // its motion since then, padded [m]
-  std::vector<double> terms_;          // scratch
+  double unpiled_ = 0.0, slid_ = 0.0;                 // since the last pile [m^3, m]
+  std::vector<Pressing> ploughing_;                   // the last contacts
+  std::vector<Vec3> noted_;                           // of each candidate node: where it was when last noted
+  std::vector<contact::kernels::NodeMotion> motion_;  // since then, padded
+  std::vector<double> terms_;                         // scratch
 };
 
 }  // namespace abradem::simulation

@@ -24,6 +24,7 @@ void Simulation::visit(Self& self, Archive& archive) {
   archive.fixed("sphere_walls", self.sphere_walls_);
   if (self.bulk_) archive("bulk", *self.bulk_);
   archive.fixed("stiffness_ratio", self.stiffness_ratio_)("worst_damping", self.worst_damping_);
+  archive.fixed("growth", self.growth_);
 }
 
 void Simulation::save(core::ArchiveWriter& archive) const { visit(*this, archive); }

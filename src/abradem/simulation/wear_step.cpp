@@ -68,20 +68,26 @@ void Simulation::wear_tip(std::size_t p, std::size_t w) {
 
 /// Of what leaves the groove the removed fraction is lost, and the rest is piled up beside the contact.
 void Simulation::plough(std::size_t p, std::size_t w, double groove_volume) {
-  constexpr double kRevolutions = 24.0, kFurthest = 8.0;  // piles may lie apart where many passes share them
+  // Piles may lie apart where many passes share them.
+  constexpr double kRevolutions = 24.0, kNearest = 0.5, kFurthest = 8.0;
   const double removed = removed_fraction() * groove_volume, displaced = groove_volume - removed;
   law_[w] += removed;
   displaced_[w] += displaced;
   Wall& wall = walls_[w];
   if (wall.is_plane()) return;
   const geometry::Pose& pose = poses_[w];
-  const Vec3 v = pose.turn_back(particles_.velocity[p] - pose.velocity_at(particles_.position[p]));
+  const Vec3& u = particles_.velocity[p];
+  const Vec3 sliding = u - pose.velocity_at(particles_.position[p]), v = pose.turn_back(sliding);
+  // The path over a wall that turns bends, by Coriolis' and the centrifugal acceleration.
+  const double speed2 = norm2(sliding);
+  const Vec3 turning =
+      speed2 > 0.0 ? pose.turn_back(cross(pose.spin, u + sliding)) * (-1.0 / speed2) : Vec3{};
   const double n = period_ > 0.0 ? end_ / period_ : 0.0;
   const wear::Ploughing ploughing{removed_fraction(), std::tan(setup_.ploughing->ridge_angle),
                                   setup_.ploughing->ahead};
   sphere_walls_[p * walls_.size() + w].plough(
       wall, ploughing,
-      {displaced, v, norm(v) * dt_, std::clamp(n / kRevolutions, 1.0, kFurthest), output_due()},
+      {displaced, v, turning, norm(v) * dt_, std::clamp(n / kRevolutions, kNearest, kFurthest), output_due()},
       particles_.radius[p], pair(particles_.material[p], wall.material()));
 }
 

@@ -259,4 +259,15 @@ GrooveCalibration calibrate_groove(const Setup& setup, const simulation::MeshSou
   return GrooveCalibrator(setup, source, options).run();
 }
 
+std::vector<std::string> undetermined(const GrooveCalibration& calibration) {
+  constexpr double kFactor = 10.0, kPart = 0.5;
+  const GrooveParameters &low = calibration.low, &high = calibration.high;
+  std::vector<std::string> names;
+  // Negated, so that an interval that is no number counts as open.
+  if (!(high[0] <= kFactor * low[0])) names.emplace_back("wear coefficient");
+  if (!(high[1] <= kFactor * low[1])) names.emplace_back("pin-to-disc ratio");
+  if (!(high[2] - low[2] <= kPart)) names.emplace_back("removed fraction");
+  return names;
+}
+
 }  // namespace abradem::study

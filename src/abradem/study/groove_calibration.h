@@ -78,4 +78,8 @@ struct GrooveCalibrationOptions {
     const simulation::Setup& setup, const simulation::MeshSource& source = simulation::generate_mesh,
     const GrooveCalibrationOptions& options = {});
 
+/// Parameters that the measurement leaves open: a coefficient or a ratio whose interval spans more than a
+/// factor of ten, a removed fraction whose interval is more than half of 0 to 1.
+[[nodiscard]] std::vector<std::string> undetermined(const GrooveCalibration& calibration);
+
 }  // namespace abradem::study

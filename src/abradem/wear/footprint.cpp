@@ -57,6 +57,54 @@ ABRADEM_DISPATCH double load_nodes(std::size_t padded_count, const double* __res
   return nodes(padded_count, excess, area, load, weight);
 }
 
+/// A triangle by its excess at the corners, and its squared edges in units of R^2.
+struct Corners {
+  double e0, e1, e2, l01, l12, l20;
+};
+
+/// Excess of the sphere at points of a triangle: along a line a parabola of curvature -2.
+ABRADEM_DISPATCH void excess_at(std::size_t padded_count, const Corners& corners, const double* __restrict b1,
+                                const double* __restrict b2, double* __restrict e) {
+  const auto [e0, e1, e2, l01, l12, l20] = corners;
+  for (std::size_t i = 0; i < padded_count; ++i) {
+    const double b0 = 1.0 - b1[i] - b2[i];
+    e[i] = b0 * (e0 + b1[i] * l01 + b2[i] * l20) + b1[i] * (e1 + b2[i] * l12) + b2[i] * e2;
+  }
+}
+
+/// Sums of weight times share of area: of all points, and with the coordinates of vertices 1 and 2.
+struct Moments {
+  double all, with1, with2;
+};
+template <typename Weight>
+ABRADEM_INLINE Moments weigh(std::size_t padded_count, const double* __restrict e,
+                             const double* __restrict share, const double* __restrict b1,
+                             const double* __restrict b2, double* __restrict w, const Weight weight) {
+  for (std::size_t i = 0; i < padded_count; ++i) w[i] = share[i] * weight(e[i]);
+  core::Lanes all{}, with1{}, with2{};
+  const auto lanes = [](const double* p) { return reinterpret_cast<const core::Lanes*>(p); };
+  for (std::size_t i = 0; i < padded_count; i += MeshCandidates::kLanes) {
+    const core::Lanes wi = *lanes(w + i);
+    all += wi;
+    with1 += wi * *lanes(b1 + i);
+    with2 += wi * *lanes(b2 + i);
+  }
+  return {ABRADEM_SUM_LANES(all), ABRADEM_SUM_LANES(with1), ABRADEM_SUM_LANES(with2)};
+}
+
+ABRADEM_DISPATCH Moments weigh_points(std::size_t padded_count, const double* __restrict e,
+                                      const double* __restrict share, const double* __restrict b1,
+                                      const double* __restrict b2, double* __restrict w,
+                                      const HertzWeight weight) {
+  return weigh(padded_count, e, share, b1, b2, w, weight);
+}
+ABRADEM_DISPATCH Moments weigh_points(std::size_t padded_count, const double* __restrict e,
+                                      const double* __restrict share, const double* __restrict b1,
+                                      const double* __restrict b2, double* __restrict w,
+                                      const OverlapWeight weight) {
+  return weigh(padded_count, e, share, b1, b2, w, weight);
+}
+
 }  // namespace
 
 const FootprintShares& FootprintIntegrator::hertz(const MeshCandidates& candidates, const OverlapField& field,
@@ -104,25 +152,15 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
   for (auto* array : {&at0_, &at1_, &at2_}) array->assign(candidates.padded_triangle_count(), 0.0);
   // Points no further apart than a fifth of the footprint's radius; the sliding averages what is left.
   constexpr int kFinest = 48;
-  const int parts = std::clamp(static_cast<int>(std::ceil(2.0 * kEdgesPerReach / edges)), 2, kFinest);
+  // Compared as it is: a spot of no size asks for infinitely many, a state that is not a number for none.
+  const double wanted = 2.0 * kEdgesPerReach / edges;
+  const int parts = wanted < kFinest ? std::max(static_cast<int>(std::ceil(wanted)), 2) : kFinest;
+  choose_points(parts);
   const auto masked_out = [&](std::size_t t) { return !mask.empty() && mask[t] == 0; };
-  // The excess of a worn tip at a point of triangle t, from that of the sphere as new.
-  const auto worn_excess_of = [&](std::size_t t) {
-    const auto p = [&](std::int32_t v) {
-      return candidates.node_position(static_cast<std::size_t>(v)) - field.c;
-    };
-    return [&, p0 = p(candidates.v0[t]), p1 = p(candidates.v1[t]), p2 = p(candidates.v2[t])](
-               double e, double b0, double b1, double b2) {
-      return field.tip.excess(e, b0 * p0 + b1 * p1 + b2 * p2, field.R);
-    };
-  };
   shares_.total = 0.0;
   for (std::size_t t = 0; t < n; ++t) {
     if (bound(candidates, field, t) <= cut || masked_out(t)) continue;
-    if (worn)
-      subdivide(candidates, field, t, parts, weight, worn_excess_of(t));
-    else
-      subdivide(candidates, field, t, parts, weight, [](double e, double, double, double) { return e; });
+    subdivide(candidates, field, t, weight);
     shares_.total += (at0_[t] + at1_[t]) + at2_[t];
   }
   if (!(shares_.total > 0.0) && n > 0) {
@@ -157,39 +195,52 @@ double FootprintIntegrator::bound(const MeshCandidates& candidates, const Overla
          candidates.longest[t] / (3.0 * field.R * field.R);
 }
 
-/// Centroid rule on parts^2 equal parts of triangle t. @param excess_of (excess of the sphere as new at a
-/// point, its barycentric coordinates) -> excess of the sphere as it is
-template <typename Weight, typename ExcessOf>
-void FootprintIntegrator::subdivide(const MeshCandidates& candidates, const OverlapField& field,
-                                    std::size_t t, int parts, const Weight& weight,
-                                    const ExcessOf& excess_of) {
-  const std::span<const double> excess = field.raw.empty() ? field.excess : field.raw;
-  const double inverse = 1.0 / (field.R * field.R);
-  const double l01 = candidates.l01[t] * inverse, l12 = candidates.l12[t] * inverse,
-               l20 = candidates.l20[t] * inverse;
-  const double e0 = excess[static_cast<std::size_t>(candidates.v0[t])];
-  const double e1 = excess[static_cast<std::size_t>(candidates.v1[t])];
-  const double e2 = excess[static_cast<std::size_t>(candidates.v2[t])];
-  double sum0 = 0.0, sum1 = 0.0, sum2 = 0.0;
+void FootprintIntegrator::choose_points(int parts) {
+  if (points_.parts == parts) return;
+  points_.parts = parts;
+  for (auto* array : {&points_.b1, &points_.b2, &points_.share}) array->clear();
   const double third = 1.0 / 3.0, step = 1.0 / parts;
-  const auto add = [&](double b1, double b2) {
-    const double b0 = 1.0 - b1 - b2;
-    // Along a line the excess is a parabola of curvature -2.
-    const double e = b0 * e0 + b1 * e1 + b2 * e2 + b0 * b1 * l01 + b1 * b2 * l12 + b2 * b0 * l20;
-    const double w = weight(excess_of(e, b0, b1, b2));
-    sum0 += w * b0;
-    sum1 += w * b1;
-    sum2 += w * b2;
+  const auto add = [&](double b1, double b2, double share) {
+    points_.b1.push_back(b1);
+    points_.b2.push_back(b2);
+    points_.share.push_back(share);
   };
   for (int i = 0; i < parts; ++i)
     for (int j = 0; i + j < parts; ++j) {
-      add((i + third) * step, (j + third) * step);
-      if (i + j + 1 < parts) add((i + 2 * third) * step, (j + 2 * third) * step);
+      add((i + third) * step, (j + third) * step, step * step);
+      if (i + j + 1 < parts) add((i + 2 * third) * step, (j + 2 * third) * step, step * step);
     }
-  const double part = candidates.area[t] * step * step;
-  at0_[t] = part * sum0;
-  at1_[t] = part * sum1;
-  at2_[t] = part * sum2;
+  while (points_.share.size() % MeshCandidates::kLanes != 0) add(third, third, 0.0);
+  points_.e.resize(points_.share.size());
+  points_.w.resize(points_.share.size());
+}
+
+/// Centroid rule on equal parts of triangle t.
+template <typename Weight>
+void FootprintIntegrator::subdivide(const MeshCandidates& candidates, const OverlapField& field,
+                                    std::size_t t, const Weight& weight) {
+  const bool worn = !field.raw.empty();
+  const std::span<const double> excess = worn ? field.raw : field.excess;
+  const auto v0 = static_cast<std::size_t>(candidates.v0[t]), v1 = static_cast<std::size_t>(candidates.v1[t]),
+             v2 = static_cast<std::size_t>(candidates.v2[t]);
+  const double inverse = 1.0 / (field.R * field.R);
+  const std::size_t n = points_.share.size();
+  const double *b1 = points_.b1.data(), *b2 = points_.b2.data();
+  double* e = points_.e.data();
+  excess_at(n,
+            {excess[v0], excess[v1], excess[v2], candidates.l01[t] * inverse, candidates.l12[t] * inverse,
+             candidates.l20[t] * inverse},
+            b1, b2, e);
+  if (worn) {  // from the excess of the sphere as new to that of the sphere as it is
+    const Vec3 p0 = candidates.node_position(v0) - field.c, p1 = candidates.node_position(v1) - field.c,
+               p2 = candidates.node_position(v2) - field.c;
+    for (std::size_t i = 0; i < n; ++i)
+      e[i] = field.tip.excess(e[i], (1.0 - b1[i] - b2[i]) * p0 + b1[i] * p1 + b2[i] * p2, field.R);
+  }
+  const Moments sum = weigh_points(n, e, points_.share.data(), b1, b2, points_.w.data(), weight);
+  at0_[t] = candidates.area[t] * (sum.all - sum.with1 - sum.with2);
+  at1_[t] = candidates.area[t] * sum.with1;
+  at2_[t] = candidates.area[t] * sum.with2;
 }
 
 }  // namespace abradem::wear

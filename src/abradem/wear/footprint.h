@@ -57,10 +57,17 @@ class FootprintIntegrator {
                                    const Weight& weight);
   [[nodiscard]] static double bound(const contact::MeshCandidates& candidates, const OverlapField& field,
                                     std::size_t t) noexcept;
-  template <typename Weight, typename ExcessOf>
+  template <typename Weight>
   void subdivide(const contact::MeshCandidates& candidates, const OverlapField& field, std::size_t t,
-                 int parts, const Weight& weight, const ExcessOf& excess_of);
+                 const Weight& weight);
+  void choose_points(int parts);
 
+  /// Centroids of parts^2 equal parts of any triangle: barycentric coordinates of vertices 1 and 2, and the
+  /// share of the triangle's area; padded with points of no share.
+  struct Points {
+    int parts = 0;
+    std::vector<double> b1, b2, share, e, w;
+  } points_;
   FootprintShares shares_;
   std::vector<double> at_node_, at0_, at1_, at2_;
 };

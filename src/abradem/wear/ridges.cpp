@@ -22,12 +22,16 @@ bool RidgeBuilder::gather(const contact::SurfaceView& view, const PloughingConta
   return candidates_.node_count() > 0;
 }
 
-/// Which nodes lie beside the contact, and how much each can take.
-void RidgeBuilder::sort_places(const WearingSurface& surface, const PloughingContact& contact) {
+/// Which nodes lie beside the contact, and how much each can take of a volume `side` on either side.
+void RidgeBuilder::sort_places(const WearingSurface& surface, const PloughingContact& contact, double side) {
   const Vec3 across = cross(contact.n, contact.forward);
+  const double bend = dot(contact.turning, across);
   const double pressed = contact.deepest - 0.5 * contact.d_e;  // overlap from which on the sphere presses
-  const double window =
-      std::max({half_length_, std::sqrt(contact.R * contact.d_e), std::sqrt(candidates_.longest_edge2)});
+  const double edge = std::sqrt(candidates_.longest_edge2);
+  const double window = std::max({half_length_, std::sqrt(contact.R * contact.d_e), edge});
+  // A pile lies along the whole window: no node takes more than twice what one row of nodes would, or the
+  // lowest of an irregular mesh would become a spike.
+  const double highest = side / (window * edge);
   const auto overlap_at = [&](const Vec3& offset) { return contact.tip.overlap(offset, contact.R); };
   struct Near {
     std::size_t node;
@@ -37,22 +41,26 @@ void RidgeBuilder::sort_places(const WearingSurface& surface, const PloughingCon
   double low = 0.0, high = 0.0, front = 0.0, length = 0.0;  // of what is pressed
   for (std::size_t i = 0; i < candidates_.node_count(); ++i) {
     const Vec3 offset = candidates_.node_position(i) - contact.c;
-    const double x = dot(offset, contact.forward), y = dot(offset, across);
+    const double x = dot(offset, contact.forward);
+    const Vec3 beside = offset - x * contact.forward - (0.5 * x * x * bend) * across;  // of the path
+    const double y = dot(beside, across);
     const double here = overlap_at(offset);
     if (here > pressed) length = std::max(length, std::abs(x)), front = std::max(front, x);
     if (x < -window || x > 2.0 * window) continue;
     // The sphere slides over the whole window: what counts is its middle section.
-    const double section = overlap_at(offset - x * contact.forward);
+    const double section = overlap_at(beside);
     if (section > pressed && std::abs(x) <= window) low = std::min(low, y), high = std::max(high, y);
     near.push_back({i, x, y, pressed - section, pressed - here});
   }
   half_length_ = length;
+  // A ridge grows while the sphere sinks; its flank is that of the sphere halfway. docs/theory/ploughing.md
+  const double halfway = high > low ? std::min(0.5 * contact.cut / (high - low), contact.d_e) : 0.0;
   left_.clear(), right_.clear(), ahead_.clear();
   for (const Near& p : near) {
     const double height = surface.height(candidates_.node[p.node]), area = candidates_.node_area[p.node];
-    if (p.room > 0.0 && std::abs(p.x) <= window) {
-      if (p.y > high) left_.push_back({p.node, p.y, height, p.room, area});
-      if (p.y < low) right_.push_back({p.node, -p.y, height, p.room, area});
+    if (const double room = std::min(p.room + halfway, highest); room > 0.0 && std::abs(p.x) <= window) {
+      if (p.y > high) left_.push_back({p.node, p.y, height, room, area});
+      if (p.y < low) right_.push_back({p.node, -p.y, height, room, area});
     }
     if (p.room_here > 0.0 && p.x > front && p.y >= low && p.y <= high)
       ahead_.push_back({p.node, p.x, height, p.room_here, area});
@@ -127,7 +135,7 @@ double RidgeBuilder::pile_up(WearingSurface& surface, const contact::SurfaceView
   double reached = -1.0;
   while (true) {
     if (!gather(view, contact, margin_)) return volume;
-    sort_places(surface, contact);
+    sort_places(surface, contact, side);
     // Wide enough: the sides hold the volume, and the fill ends before the surface seen does.
     const double edge = std::sqrt(candidates_.longest_edge2);
     double furthest = 0.0;

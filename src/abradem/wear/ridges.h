@@ -24,22 +24,27 @@ struct PloughingContact {
   contact::Tip tip{};    ///< worn end, if any
   Vec3 n;                ///< of the contact, from the surface to the sphere
   Vec3 forward;          ///< direction in which the sphere slides over the surface
+  Vec3 turning;          ///< curvature of its path over the surface [1/m]
   double deepest = 0.0;  ///< largest overlap in the contact [m]
   double d_e = 0.0;      ///< Hertz approach of its force [m]
+  double cut = 0.0;      ///< area that this pass takes from the groove's section [m^2]
 
   /// For core/archive.h; the shape of the tip belongs to the sphere and is put back by whoever loads.
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
     archive("c", self.c)("R", self.R)("tip_u", self.tip.u)("tip_v", self.tip.v)("tip_axis", self.tip.axis);
-    archive("n", self.n)("forward", self.forward)("deepest", self.deepest)("d_e", self.d_e);
+    archive("n", self.n)("forward", self.forward)("turning", self.turning)("deepest", self.deepest)("d_e",
+                                                                                                    self.d_e);
+    archive("cut", self.cut);
   }
 };
 
 /// Piles displaced material up beside a contact.                                 docs/theory/ploughing.md
 ///
 /// Each side gets its half as a level fill: under a plane that descends outwards at the steepest slope, and
-/// not into the sphere. What of the surface the pressed part of the contact covers gets nothing. The fill's
-/// level follows from the volume, so the pile holds it exactly.
+/// not into the sphere as it stands halfway through its sinking in this pass. What of the surface the pressed
+/// part of the contact covers gets nothing. The fill's level follows from the volume, so the pile holds it
+/// exactly.
 class RidgeBuilder {
  public:
   /// @return volume that found no place: no surface beside the contact [m^3]
@@ -64,7 +69,7 @@ class RidgeBuilder {
     double area;       // [m^2]
   };
   bool gather(const contact::SurfaceView& view, const PloughingContact& contact, double margin);
-  void sort_places(const WearingSurface& surface, const PloughingContact& contact);
+  void sort_places(const WearingSurface& surface, const PloughingContact& contact, double side);
   [[nodiscard]] static double capacity(const std::vector<Place>& places) noexcept;
   [[nodiscard]] double fill(WearingSurface& surface, const std::vector<Place>& places, double slope,
                             double volume);

@@ -132,7 +132,7 @@ void WearingSurface::watch(Index v, double distance) noexcept {
   const double limit = limit_[at(v)];
   if (distance <= limit) return;
   ++guards_.deep_steps;
-  if (distance > 5.0 * limit) {
+  if (!(distance <= 5.0 * limit)) {  // not a number too
     ++guards_.fatal_steps;
     guards_.worst_vertex = v;
   }

@@ -119,11 +119,12 @@ TEST(MeshCandidates, AddUpHowFarCentroidsInsideTheBallMove) {
   test::Scene scene(test::jittered_plate(4e-3, 4e-3, 0.2e-3, 0.25, 3));
   const MeshCandidates& m = scene.candidates_at({0, 0, R - 40e-6}, R);
   core::RandomStream random(23);
-  std::vector<double> excess(m.x.size(), -1.0), dx(m.x.size()), dy(m.x.size()), dz(m.x.size()), scratch;
+  std::vector<kernels::NodeMotion> moved(m.x.size());
+  std::vector<double> scratch;
   for (std::size_t i = 0; i < m.node_count(); ++i) {
-    excess[i] = random.uniform(-1.0, 0.2);
-    dx[i] = random.uniform(-1e-7, 1e-7), dy[i] = random.uniform(-1e-7, 1e-7),
-    dz[i] = random.uniform(-1e-6, 0.0);
+    const double inside = random.uniform(-1.0, 0.2) > 0.0 ? 1.0 : 0.0;
+    const double x = random.uniform(-1e-7, 1e-7), y = random.uniform(-1e-7, 1e-7);
+    moved[i] = {x, y, random.uniform(-1e-6, 0.0), inside};
   }
   double volume = 0.0;
   for (std::size_t t = 0; t < m.triangle_count(); ++t) {
@@ -131,14 +132,13 @@ TEST(MeshCandidates, AddUpHowFarCentroidsInsideTheBallMove) {
     bool inside = false;
     for (const auto v : {m.v0[t], m.v1[t], m.v2[t]}) {
       const auto i = static_cast<std::size_t>(v);
-      motion += Vec3{dx[i], dy[i], dz[i]} / 3.0;
-      inside = inside || excess[i] > 0.0;
+      motion += Vec3{moved[i][0], moved[i][1], moved[i][2]} / 3.0;
+      inside = inside || moved[i][3] > 0.0;
     }
     if (inside) volume += norm(motion) * m.area[t];
   }
   EXPECT_GT(volume, 0.0);
-  EXPECT_NEAR(kernels::centroid_motion(m, excess, dx.data(), dy.data(), dz.data(), scratch), volume,
-              1e-13 * volume);
+  EXPECT_NEAR(kernels::centroid_motion(m, moved, scratch), volume, 1e-13 * volume);
 }
 
 TEST(MeshCandidates, AreGatheredAnewOutsideTheSkinAndForALongerReach) {

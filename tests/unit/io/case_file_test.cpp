@@ -120,6 +120,25 @@ TEST(CaseFile, KeepsTheTextByteForByte) {
   EXPECT_EQ(load_case(kExample).text, text);
 }
 
+TEST(CaseFile, AKeyOfAnyCharacterIsReadOrRefusedInWords) {
+  const std::string small = kSmall;
+  EXPECT_EQ(complaint(small + "\u00b3 = 1\n").substr(0, 22), "case.toml:18:1: error:");
+  const auto utf8 = [](unsigned c) {
+    std::string text;
+    const auto byte = [&](unsigned b) { text += static_cast<char>(b); };
+    if (c < 0x800) {
+      byte(0xc0 | c >> 6);
+    } else {
+      byte(0xe0 | c >> 12);
+      byte(0x80 | (c >> 6 & 0x3f));
+    }
+    byte(0x80 | (c & 0x3f));
+    return text;
+  };
+  for (unsigned c = 0x80; c < 0x10000; c += c < 0x1000 ? 1 : 61)
+    EXPECT_NE(complaint(small + utf8(c) + " = 1\n"), "") << c;
+}
+
 TEST(CaseFile, WhatIsNotGivenHasTheDefaultOfTheSetup) {
   const CaseSetup s = read(kSmall);
   const simulation::WallSetup fresh;
@@ -596,6 +615,91 @@ TEST(Combination, NotesWhatIsAllowedButProbablyNotMeant) {
   EXPECT_TRUE(contains(notes({"material.iron_ore.shear_modulus=0.1"}), "check the load (N)"));
   EXPECT_TRUE(contains(notes({"output.every=20 rev"}), "longer than the run"));
   EXPECT_TRUE(contains(notes({"run.increment=50 um"}), "counts only with method = \"quasi_static\""));
+}
+
+struct Slip {
+  const char* change;    ///< of the example
+  const char* question;  ///< a part of what is asked
+  const char* meant;     ///< the same in its unit: nothing is asked
+  bool refused = false;
+};
+
+class UnitSlip : public testing::TestWithParam<Slip> {};
+
+TEST_P(UnitSlip, IsAskedAboutInWords) {
+  const Slip& slip = GetParam();
+  const auto said = [](const char* change) -> std::pair<std::string, bool> {
+    try {
+      std::string all;
+      for (const std::string& note : load_case(kExample, std::vector<std::string>{change}).notes) all += note;
+      return {all, false};
+    } catch (const InputError& error) {
+      return {error.what(), true};
+    }
+  };
+  const auto [text, refused] = said(slip.change);
+  EXPECT_TRUE(contains(text, slip.question)) << text;
+  EXPECT_EQ(refused, slip.refused);
+  EXPECT_EQ(said(slip.meant), (std::pair<std::string, bool>{}));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, UnitSlip,
+    testing::Values(
+        Slip{"material.mild_steel.density=7.932",
+             "at 99.2 km/s, faster than through diamond (12.8 km/s): is the density, 7.932 kg/m^3, in g/cm^3 "
+             "(\"7.932 g/cm^3\")?",
+             "material.mild_steel.density=\"7.932 g/cm^3\"", true},
+        Slip{"material.iron_ore.density=4.85", "less than foam: is it in g/cm^3? Then write \"4.85 g/cm^3\"",
+             "material.iron_ore.density=\"4.85 g/cm^3\""},
+        Slip{"material.iron_ore.density=4850000", "more than any element",
+             "material.iron_ore.density=\"4850000 g/m^3\""},
+        Slip{"material.mild_steel.shear_modulus=78", "less than jelly: is it in GPa? Then write \"78 GPa\"",
+             "material.mild_steel.shear_modulus=\"78 GPa\""},
+        Slip{"material.mild_steel.hardness=143", "is it in HV? Then write \"143 HV\"",
+             "material.mild_steel.hardness=\"143 HV\""},
+        Slip{"wear.\"iron_ore/mild_steel\".wear_coefficient=0.001", "is this the dimensionless k",
+             "wear.\"iron_ore/mild_steel\".wear_coefficient=\"5e-11 1/Pa\""},
+        Slip{"wall.disc.motion.rate=180",
+             "rate = 180 is in rad/s, 28.6 turns per second: is it in degrees? Write \"180 deg/s\"",
+             "wall.disc.motion.rate=\"180 rad/s\""},
+        Slip{"wall.disc.motion.rate=\"18000 rad/s\"", "wall 'disc' moves at 396 m/s where a particle is",
+             "wall.disc.motion.rate=\"18000 deg/s\""},
+        Slip{"wall.disc.motion={ kind=\"oscillation\", amplitude=[1.5, 0, 0], frequency=\"1 Hz\" }",
+             "goes 1.5 m to and fro", "wall.disc.motion.rate=\"180 deg/s\""},
+        Slip{"run.gravity=[0, 0, -9810]", "gravity is 9810 m/s^2, 1e+03 times the Earth's: is it in mm/s^2?",
+             "run.gravity=[0, 0, \"-9810 mm/s^2\"]"},
+        Slip{"particle.pin.load=500",
+             "is pressed with 500 N, 17.7 N on each mm^2 of its cross-section: is the load in grams? Then "
+             "write "
+             "\"4.903 N\"",
+             "particle.pin.load=\"4.903 N\""},
+        Slip{"particle.pin.load=\"500 g\"", "a mass, and a load is a force: its weight is 4.903325 N",
+             "particle.pin.load=\"4.903 N\"", true},
+        Slip{"ploughing={ removed_fraction=0.6, ridge_angle=10 }",
+             "a bare number is in rad: was \"10 deg\" meant?",
+             "ploughing={ removed_fraction=0.6, ridge_angle=\"10 deg\" }", true},
+        Slip{"particle.pin.radius=3", "a bare number is in metres: was \"3 mm\" meant?",
+             "particle.pin.radius=\"3 mm\"", true},
+        Slip{"wall.disc.mesh={ shape=\"annulus\", inner=20, outer=24, size=0.1 }",
+             "wall 'disc' is 48 m wide and 'pin' has a radius of 3 mm: is the wall given in millimetres?",
+             "wall.disc.mesh.size=\"0.1 mm\"", true}));
+
+TEST(UnitSlip, OfAFreeSphereIsAQuestion) {
+  const std::string floor =
+      std::string(kSmall).replace(std::string(kSmall).find("{ shape = \"plane\" }"), 19,
+                                  "{ shape = \"plate\", length = 48, width = 48, size = 1 }");
+  const auto notes = [&](const std::vector<std::string>& overrides) {
+    std::string all;
+    for (const std::string& note : parse_case(floor, "case.toml", "/", overrides).notes) all += note;
+    return all;
+  };
+  EXPECT_TRUE(
+      contains(notes({}), "is 48 m wide and 'ball' has a radius of 3 mm: is the wall given in millimetres"));
+  EXPECT_EQ(notes({"particle.ball.radius=\"300 mm\"", "particle.ball.position=[0, 0, 1]"}), "");
+  EXPECT_TRUE(contains(notes({"particle.ball.velocity=[0, 0, -300]", "particle.ball.radius=0.3",
+                              "particle.ball.position=[0, 0, 1]"}),
+                       "'ball' starts at 300 m/s: is its velocity in mm/s?"));
 }
 
 }  // namespace

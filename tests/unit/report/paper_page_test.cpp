@@ -66,6 +66,24 @@ class PaperPage : public testing::Test {
   static inline std::map<std::string, JudgedClaim> judged_;
 };
 
+TEST_F(PaperPage, TableFourEndsWithTheWornPinAndTheRidges) {
+  const DataTable t = *table4(*runs_);
+  ASSERT_EQ(t.columns[7], "inside what was measured");
+  const std::vector<std::string>&theirs = t.rows[1], &without = t.rows[t.rows.size() - 2],
+        &with = t.rows.back();
+  EXPECT_EQ(theirs[7], "volume");
+  EXPECT_EQ(without[7], "width, volume");
+  EXPECT_EQ(with[0], "the same pin, worn, and ridges: 54.0 % of the groove removed");
+  EXPECT_EQ(with[7], "depth, width, volume");
+  EXPECT_EQ(with[2], "-14 %");
+  const Figure figure = *fig18_against_test(*runs_);
+  EXPECT_EQ(figure.panels.back().title, "(c) Conserving, with a worn pin and ridges");
+  PaperRuns before = *runs_;
+  before.laboratory.reset();
+  EXPECT_EQ(table4(before)->rows.size(), t.rows.size() - 1);
+  EXPECT_EQ(fig18_against_test(before)->panels.size(), figure.panels.size() - 1);
+}
+
 TEST_F(PaperPage, FindsReproducedWhatIsThePapers) {
   for (const char* id : {"M01", "M02", "N01", "N02", "D01", "D02", "D04", "W04", "V13", "V14", "V15", "V16",
                          "V17", "C04", "C05", "P03", "C06", "C07", "T01", "T02", "F08", "F17", "F18"})

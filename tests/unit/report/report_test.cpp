@@ -111,6 +111,46 @@ TEST_F(Report, ADamagedSeriesIsAnErrorAndNoSeriesIsNot) {
   EXPECT_TRUE(has(io_error([&] { (void)read_run_folder(folder_); }), "a.vtp: no such file"));
 }
 
+TEST_F(Report, ShowsThePinAndTheRidgesOnlyWhereThereAreSome) {
+  EXPECT_FALSE(has(make_page(read_run_folder(folder_)), "The worn pin"));
+  EXPECT_FALSE(has(make_page(read_run_folder(folder_)), "The ridges"));
+
+  write_text(folder_ / "tables/ridges.csv",
+             "revolution,groove_volume_mm3,removed_volume_mm3,displaced_volume_mm3,piled_volume_mm3,"
+             "ridge_height_mean_mm,ridge_height_sd_mm,ridge_area_mean_mm2,groove_area_mean_mm2\n"
+             "1,0.1,0.06,0.04,0.04,0.005,0.001,0.0003,0.001\n");
+  std::string html = make_page(read_run_folder(folder_));
+  EXPECT_TRUE(has(html, ">The ridges<"));
+  EXPECT_TRUE(has(html,
+                  "60.0 % was lost and the rest moved aside; the ridges are 5.00 µm high, and their "
+                  "section is 30.0 % of the groove"));
+  EXPECT_FALSE(has(html, "Wear of the pin"));
+
+  write_text(
+      folder_ / "tables/tip.csv",
+      "revolution,particle,law_volume_mm3,deposited_volume_mm3,removed_volume_mm3,mass_ug,recession_um,"
+      "flat_along_mm,flat_across_mm,map_cell_um\n"
+      "1,0,0.002,0.002,0.002,9.7,20,0.5,0.7,15\n1,1,0.001,0.001,0.00099,4.8,15,0.4,0.6,15\n");
+  html = make_page(read_run_folder(folder_));
+  EXPECT_TRUE(has(html, ">The worn pin and the ridges<"));
+  EXPECT_TRUE(has(html, "Pin 1 lost 9.70 µg and stands on a flat of 0.500 by 0.700 mm"));
+  EXPECT_TRUE(has(html, "Pin 2 lost 4.80 µg"));
+  EXPECT_TRUE(has(html, "0.010 [-]"));         // the second pin's map lacks less than the law took
+  EXPECT_FALSE(has(html, "The worn end of"));  // a run that was stopped has no profile yet
+
+  write_text(folder_ / "tables/tip_profile.csv",
+             "particle,distance_mm,sphere_um,recession_along_um,recession_across_um\n"
+             "0,-1,160,0,0\n0,0,0,20,20\n0,1,160,0,0\n1,-1,160,0,0\n1,0,0,15,15\n1,1,160,0,0\n");
+  write_report(folder_);
+  EXPECT_TRUE(has(read_text(folder_ / "report.html"), "The worn end of the pin"));
+  const std::string profile = read_text(folder_ / "tables/tip-profile.csv");
+  EXPECT_TRUE(has(profile, "Pin 2"));
+  EXPECT_TRUE(has(profile, ",0,20"));
+
+  write_text(folder_ / "tables/tip.csv", "revolution,particle\n1,0\n");
+  EXPECT_TRUE(has(io_error([&] { (void)read_run_folder(folder_); }), "tip.csv"));
+}
+
 TEST_F(Report, AnUnwritablePageIsNamed) {
   std::filesystem::create_directories(folder_ / "report.html/inside");
   EXPECT_TRUE(has(io_error([&] { write_report(folder_); }), "report.html': "));

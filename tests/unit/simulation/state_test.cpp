@@ -79,7 +79,7 @@ TEST(State, OfParticlesThatMeetGoesOnToTheSameBits) {
     p.name = "p" + std::to_string(k);
     p.material = "iron_ore";
     p.radius = 0.5e-3;
-    p.position = {5.8e-3 + 0.2e-3 * k, 0.97e-3 * k, 0.52e-3 + 0.05e-3 * k};
+    p.position = {5.8e-3 + 0.2e-3 * k, 0.99e-3 * k, 0.52e-3 + 0.05e-3 * k};
     p.velocity = {0.1, k % 2 == 0 ? 0.4 : -0.4, -0.3};
     p.spin = {30.0 * k, 5.0, -10.0};
     setup.particles.push_back(p);

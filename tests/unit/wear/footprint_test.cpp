@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 
 #include "abradem/contact/patch.h"
 #include "abradem/geometry/closest_point.h"
@@ -217,6 +218,19 @@ TEST(Footprint, SpotFinerThanTheSamplingFallsWhereItLies) {
                                           p.scene.candidates.node_position(at(p.scene.candidates.v1[t])),
                                           p.scene.candidates.node_position(at(p.scene.candidates.v2[t])));
   EXPECT_EQ(hit.feature, geometry::Feature::face);
+}
+
+TEST(Footprint, OfAnyForceAsksForACountableNumberOfPoints) {
+  // A state that has lost its sense, until it is noticed: d_e of nothing, of everything, of no number.
+  const Pressed p(test::jittered_plate(4e-3, 4e-3, 1e-3, 0.2), {0.31e-3, 0.12e-3, 0.999 * R});
+  FootprintIntegrator footprint;
+  for (const double d_e :
+       {0.0, 5e-324, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    for (const bool by_elements : {false, true}) {
+      const auto& s = footprint.hertz(p.scene.candidates, p.field(), d_e, by_elements);
+      EXPECT_LE(s.count, p.scene.candidates.triangle_count()) << d_e;
+      EXPECT_FALSE(s.total < 0.0) << d_e;
+    }
 }
 
 }  // namespace

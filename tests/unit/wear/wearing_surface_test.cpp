@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "abradem/core/error.h"
 #include "abradem/wear/archard.h"
 #include "support/surfaces.h"
@@ -214,6 +216,15 @@ TEST(WearingSurface, CountsStepsTooDeepForTheMesh) {
   surface.deform_conserving();
   EXPECT_EQ(surface.guards().fatal_steps, 1U);
   EXPECT_EQ(surface.guards().worst_vertex, surface.mesh().triangles[at(element)][0]);
+}
+
+TEST(WearingSurface, CountsWhatIsNoNumberAsTooDeep) {
+  WearingSurface surface(test::jittered_plate(4e-3, 4e-3, 1e-3, 0.2));
+  surface.deposit(0, 3e-15, 1e-15, 1e-15, 1e-15);
+  surface.deposit_at_vertex(surface.mesh().triangles[0][1], std::numeric_limits<double>::quiet_NaN());
+  surface.deform_conserving();
+  EXPECT_GE(surface.guards().fatal_steps, 1U);
+  EXPECT_GE(surface.guards().worst_vertex, 0);
 }
 
 TEST(WearingSurface, CountsTrianglesThatTurnOver) {

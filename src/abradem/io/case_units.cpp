@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/io/case_units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "abradem/io/case_schema.h"
+
+namespace abradem::io {
+namespace {
+
+using namespace simulation;
+
+std::string path_of(std::string_view section, std::string_view name) {
+  return fmt::format("{}.{}", section, toml_key(name));
+}
+
+class Units {
+ public:
+  Units(const Setup& setup, const Places& places, Problems& problems)
+      : setup_(setup), places_(places), problems_(problems) {}
+
+  void check() {
+    for (const MaterialSetup& m : setup_.materials) check_material(m, path_of("material", m.name));
+    for (const WearSetup& w : setup_.wear) check_wear(w, path_of("wear", w.abrader + "/" + w.worn));
+    for (const WallSetup& w : setup_.walls) check_motion(w, path_of("wall", w.name) + ".motion");
+    for (const ParticleSetup& p : setup_.particles) check_particle(p, path_of("particle", p.name));
+    constexpr double kStrongest = 100.0;  // ten times the Earth's
+    if (const double g = norm(setup_.run.gravity); g > kStrongest)
+      ask("run.gravity", "gravity is {:.4g} m/s^2, {:.3g} times the Earth's: is it in mm/s^2?", g, g / 9.81);
+  }
+
+ private:
+  template <typename... T>
+  void ask(const std::string& path, fmt::format_string<T...> question, T&&... values) {
+    if (places_.good(path))
+      problems_.note(places_.of(path), fmt::format(question, std::forward<T>(values)...));
+  }
+
+  void check_material(const MaterialSetup& m, const std::string& path) {
+    constexpr double kFastest = 15e3;                         // [m/s]; shear waves in diamond: 12.8 km/s
+    constexpr double kLightest = 30.0, kDensest = 23e3;       // [kg/m^3] foam; osmium has 22 590
+    constexpr double kSoftest = 1e4, kSoftestHardness = 1e6;  // [Pa] jelly; lead has 40 MPa
+    if (!places_.good(path)) return;
+    const double wave = std::sqrt(m.shear_modulus / m.density);
+    if (wave > kFastest) {
+      problems_.error(
+          places_.of(path + ".density"),
+          fmt::format("shear waves would run through '{}' at {:.3g} km/s, faster than through diamond (12.8 "
+                      "km/s): is the density, {:.4g} kg/m^3, in g/cm^3 (\"{:.4g} g/cm^3\")? Or is the shear "
+                      "modulus, {:.3g} GPa, too large?",
+                      m.name, 1e-3 * wave, m.density, m.density, 1e-9 * m.shear_modulus));
+    } else if (m.density < kLightest) {
+      ask(path + ".density",
+          "'{}' has a density of {:.4g} kg/m^3, less than foam: is it in g/cm^3? Then write \"{:.4g} "
+          "g/cm^3\"",
+          m.name, m.density, m.density);
+    } else if (m.density > kDensest) {
+      ask(path + ".density",
+          "'{}' has a density of {:.4g} kg/m^3, more than any element (osmium, 22 590): is it in another "
+          "unit, "
+          "or scaled on purpose?",
+          m.name, m.density);
+    }
+    if (m.shear_modulus < kSoftest)
+      ask(path + ".shear_modulus",
+          "'{}' has a shear modulus of {:.4g} Pa, less than jelly: is it in GPa? Then write \"{:.4g} GPa\"",
+          m.name, m.shear_modulus, m.shear_modulus);
+    if (m.hardness && *m.hardness < kSoftestHardness)
+      ask(path + ".hardness",
+          "'{}' has a hardness of {:.4g} Pa, less than any metal: is it in HV? Then write \"{:.4g} HV\"",
+          m.name, *m.hardness, *m.hardness);
+  }
+
+  void check_wear(const WearSetup& w, const std::string& path) {
+    constexpr double kLargest = 1e-6;  // [1/Pa]: k = 1, every asperity a chip, in a metal of 1 MPa
+    if (w.wear_coefficient > kLargest)
+      ask(path + ".wear_coefficient",
+          "wear_coefficient is {:.4g} 1/Pa, {:.3g} mm^3 per newton and metre; it is k / H and near 1e-13 "
+          "1/Pa "
+          "for most metals: is this the dimensionless k, still to be divided by the hardness?",
+          w.wear_coefficient, 1e9 * w.wear_coefficient);
+  }
+
+  /// Fastest that the wall moves under a particle [m/s].
+  [[nodiscard]] double speed(const MotionSetup& motion) const {
+    switch (motion.kind) {
+      case MotionKind::none:
+        return 0.0;
+      case MotionKind::translation:
+        return norm(motion.velocity);
+      case MotionKind::oscillation:
+        return 2.0 * std::numbers::pi * motion.frequency * norm(motion.amplitude);
+      case MotionKind::rotation: {
+        double fastest = 0.0;
+        for (const ParticleSetup& p : setup_.particles)
+          fastest = std::max(fastest, norm(cross(motion.axis, p.position - motion.center)));
+        return std::abs(motion.rate) * fastest;
+      }
+    }
+    return 0.0;
+  }
+
+  void check_motion(const WallSetup& wall, const std::string& path) {
+    constexpr double kFastest = 100.0;       // [m/s]: a grinding wheel
+    constexpr double kFewestDegrees = 10.0;  // of a bare rate: whoever thinks in radians writes 3.14 or 6.28
+    constexpr double kWidest = 200.0;        // of an oscillation, in radii
+    if (!places_.good(path)) return;
+    const MotionSetup& m = wall.motion;
+    const double fastest = speed(m);
+    if (m.kind == MotionKind::rotation && places_.bare(path + ".rate") && std::abs(m.rate) >= kFewestDegrees)
+      ask(path + ".rate",
+          "rate = {:.6g} is in rad/s, {:.3g} turns per second: is it in degrees? Write \"{:.6g} deg/s\", or "
+          "\"{:.6g} rad/s\"",
+          m.rate, std::abs(m.rate) / (2.0 * std::numbers::pi), m.rate, m.rate);
+    else if (fastest > kFastest)
+      ask(path, "wall '{}' moves at {:.4g} m/s where a particle is: is its motion in {}?", wall.name, fastest,
+          m.kind == MotionKind::rotation ? "another unit than rad/s (\"deg/s\", \"rpm\")" : "mm/s");
+    if (m.kind != MotionKind::oscillation) return;
+    for (const ParticleSetup& p : setup_.particles)
+      if (const double width = norm(m.amplitude); width > kWidest * p.radius) {
+        ask(path + ".amplitude",
+            "wall '{}' goes {:.4g} m to and fro, and '{}' has a radius of {:.4g} mm: is the amplitude in "
+            "millimetres? A bare number is in metres",
+            wall.name, width, p.name, 1e3 * p.radius);
+        return;
+      }
+  }
+
+  void check_particle(const ParticleSetup& p, const std::string& path) {
+    constexpr double kFastest = 100.0;  // [m/s]
+    constexpr double kHeaviest = 10e6;  // [Pa], load over cross-section; a laboratory's pin: 0.2 MPa
+    constexpr double kEarth = 9.80665;  // [m/s^2]
+    if (!places_.good(path)) return;
+    if (const double v = norm(p.velocity); v > kFastest)
+      ask(path + ".velocity", "'{}' starts at {:.4g} m/s: is its velocity in mm/s?", p.name, v);
+    const double load = norm(p.load), cross_section = std::numbers::pi * p.radius * p.radius;
+    if (places_.bare(path + ".load") && load > kHeaviest * cross_section)
+      ask(path + ".load",
+          "'{}' with a radius of {:.4g} mm is pressed with {:.4g} N, {:.3g} N on each mm^2 of its "
+          "cross-section: "
+          "is the load in grams? Then write \"{:.4g} N\", or else \"{:.4g} N\"",
+          p.name, 1e3 * p.radius, load, 1e-6 * load / cross_section, 1e-3 * kEarth * load, load);
+    if (p.guide == Guide::none) check_width(p, path);
+  }
+
+  /// A free sphere may be small in a large plant, so this is a question only.
+  void check_width(const ParticleSetup& p, const std::string& path) {
+    for (const WallSetup& wall : setup_.walls) {
+      const std::string mesh = path_of("wall", wall.name) + ".mesh";
+      if (!places_.good(mesh)) continue;
+      const std::string why = implausible_extent(wall, p.name, p.radius);
+      if (!why.empty()) {
+        ask(wall.mesh.shape == MeshShape::file ? path : mesh, "{}", why);
+        return;
+      }
+    }
+  }
+
+  const Setup& setup_;
+  const Places& places_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+void check_units(const Setup& setup, const Places& places, Problems& problems) {
+  Units(setup, places, problems).check();
+}
+
+}  // namespace abradem::io
