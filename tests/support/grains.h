@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,6 +14,19 @@
 namespace abradem::test {
 
 using namespace simulation;
+
+/// While it lives, on one thread: small beds wait more for other threads than these can do, above all where
+/// tests run side by side.
+class OneThread {
+ public:
+  OneThread() : before_(omp_get_max_threads()) { omp_set_num_threads(1); }
+  ~OneThread() { omp_set_num_threads(before_); }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  int before_;
+};
 
 inline WallSetup plane(const std::string& name, const Vec3& point, const Vec3& normal) {
   WallSetup wall;

@@ -15,6 +15,7 @@ namespace abradem::test {
 namespace {
 
 TEST(Bulk, FrictionalGrainsPackLooser) {
+  const OneThread alone;
   // mu = 0.5: random loose packing, 0.58 to 0.60.
   constexpr double R = 3e-3, side = 16 * 2.06 * R;
   simulation::Setup setup = grains(0.3, 0.5, side);
@@ -35,6 +36,7 @@ TEST(Bulk, FrictionalGrainsPackLooser) {
 /// A square silo of rough walls, filled and then let down on its floor by some diameters, so that all walls
 /// carry as much as they can.
 TEST(Bulk, SiloWallsCarryWhatJanssenSays) {
+  const OneThread alone;
   constexpr double R = 3e-3, pitch = 2.1 * R, friction = 0.5;
   constexpr std::size_t across = 10, layers = 60;
   constexpr double side = across * pitch;
@@ -106,6 +108,7 @@ TEST(Bulk, SiloWallsCarryWhatJanssenSays) {
 
 /// The ready case, filled less high (the rate does not depend on it) and for a shorter time.
 TEST(Bulk, SiloWithASlitEmptiesAtThePublishedRate) {
+  const OneThread alone;
   constexpr double kPublished = 82.1e-3, kTheirSlice = 5.6e-3, kOurSlice = 8.96e-3;  // [kg/s], [m]
   const std::vector<std::string> smaller{"insertion.fill.number=5000", "wall.gate.until='0.15 s'",
                                          "run.end='0.35 s'"};

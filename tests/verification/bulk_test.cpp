@@ -58,6 +58,7 @@ TEST(Bulk, FrictionAndDampingOnlyTakeEnergy) {
 }
 
 TEST(Bulk, FrictionlessGrainsPackAtRandomCloseDensity) {
+  const OneThread alone;
   constexpr double R = 3e-3, side = 16 * 2.06 * R;
   simulation::Setup setup = grains(0.3, 0.0, side);
   setup.walls.push_back(plane("floor", {0, 0, 0}, {0, 0, 1}));
