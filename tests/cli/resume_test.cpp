@@ -204,6 +204,59 @@ TEST(Resume, GoesOnPastTheEnd) {
   expect_same(scratch.path() / "whole", scratch.path() / "short");
 }
 
+/// Particles in numbers, of sizes and from places in files that are gone when the run is taken up.
+TEST(Resume, OfParticlesInNumbersGoesOnPastTheEnd) {
+  const ScratchFolder scratch;
+  write_file(scratch.path() / "sizes.csv", "radius_mm,share\n0.8,1\n1.1,2\n");
+  write_file(scratch.path() / "places.csv", "x_mm,y_mm,z_mm,radius_mm\n0,0,1.4,1.5\n4,1,2,1\n-4,2,1.2,1.2\n");
+  write_file(scratch.path() / "feed.toml", R"(schema = 1
+[material.glass]
+density = 2500
+shear_modulus = "10 MPa"
+poisson_ratio = 0.25
+[contact."glass/glass"]
+restitution = 0.5
+static_friction = 0.5
+[wear."glass/glass"]
+wear_coefficient = "1e-10 1/Pa"
+[wall.plate]
+material = "glass"
+mesh = { shape = "plate", length = "20 mm", width = "20 mm", size = "2 mm" }
+motion = { kind = "oscillation", amplitude = ["1 mm", 0, 0], frequency = "50 Hz" }
+contact = "resolved"
+[insertion.feed]
+material = "glass"
+mass = "1 kg"
+mass_rate = "0.05 kg/s"
+velocity = [0, 0, "-0.5 m/s"]
+size = { kind = "table", file = "sizes.csv" }
+volume = { low = ["-8 mm", "-8 mm", "4 mm"], high = ["8 mm", "8 mm", "9 mm"] }
+[insertion.some]
+material = "glass"
+volume = { shape = "file", file = "places.csv" }
+[domain]
+low = ["-10 mm", "-10 mm", "-5 mm"]
+high = ["10 mm", "10 mm", "20 mm"]
+[run]
+end = "30 ms"
+gravity = [0, 0, "-9.81 m/s^2"]
+[output]
+every = "10 ms"
+)");
+  const std::string run = "run feed.toml --quiet --no-report --threads 1";
+  ASSERT_EQ(run_program(run + " -o whole", scratch.path()).exit_code, 0);
+  ASSERT_EQ(run_program(run + " --set run.end='17 ms' -o short", scratch.path()).exit_code, 0);
+  fs::remove(scratch.path() / "sizes.csv");
+  fs::remove(scratch.path() / "places.csv");
+  const Outcome rest =
+      run_program("resume short --quiet --no-report --threads 2 --set run.end='30 ms'", scratch.path());
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  expect_same(scratch.path() / "whole", scratch.path() / "short");
+  const io::CsvTable table = io::read_csv(scratch.path() / "short" / "tables" / "particles.csv");
+  EXPECT_EQ(table.rows(), 4U);
+  EXPECT_GT(table.column("inserted").back(), 50.0);
+}
+
 TEST(Checkpoint, IsWrittenWhenAskedForAndTheRunGoesOn) {
   const ScratchFolder scratch;
   Running running("run " + kCase + " --set run.end='1000 rev' -o result", scratch.path());

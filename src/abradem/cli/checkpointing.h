@@ -30,14 +30,26 @@ struct RunState {
   }
 };
 
-/// What a run is made of, as text and meshes; it stays the same while the run goes on.
-struct RunInputs {
-  std::string resolved_case;
-  std::vector<geometry::TriangleMesh> meshes;  ///< of the walls that have one, as they began
+/// What an insertion took from files.
+struct InsertionInputs {
+  std::vector<simulation::PlacedSphere> placed;
+  std::vector<double> radii, shares;
 
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
-    archive("resolved_case", self.resolved_case)("meshes", self.meshes);
+    archive("placed", self.placed)("radii", self.radii)("shares", self.shares);
+  }
+};
+
+/// What a run is made of, as text, meshes and tables; it stays the same while the run goes on.
+struct RunInputs {
+  std::string resolved_case;
+  std::vector<geometry::TriangleMesh> meshes;  ///< of the walls that have one, as they began
+  std::vector<InsertionInputs> insertions;     ///< of each insertion
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("resolved_case", self.resolved_case)("meshes", self.meshes)("insertions", self.insertions);
   }
 };
 [[nodiscard]] RunInputs inputs_of(const simulation::Simulation& run, std::string resolved_case);

@@ -109,7 +109,11 @@ void Progress::output(const simulation::Simulation& run, const io::RunRecorder& 
   const std::string depth = row.depth_mean > 0.0 ? fmt::format("  depth {:.3f} um  width {:.3f} mm",
                                                                1e6 * row.depth_mean, 1e3 * row.width_mean)
                                                  : "";
-  log_.line(fmt::format("{}{}  normal force {:.4g} N", state(run), depth, row.force_mean));
+  const simulation::BulkState bulk = run.bulk_state();
+  log_.line(fmt::format(
+      "{}{}{}{}", state(run), depth,
+      run.particles().size() > 0 ? fmt::format("  normal force {:.4g} N", row.force_mean) : "",
+      bulk.inserted > 0 ? fmt::format("  {} particles, {} removed", bulk.present, bulk.removed) : ""));
 }
 
 void summarise(const io::RunRecord& record, RunLog& log) {

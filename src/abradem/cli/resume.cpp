@@ -20,6 +20,7 @@
 #include "abradem/io/atomic_file.h"
 #include "abradem/io/case_file.h"
 #include "abradem/io/checkpoint.h"
+#include "abradem/io/insertion_files.h"
 #include "abradem/report/manifest.h"
 
 namespace abradem::cli {
@@ -79,7 +80,14 @@ Resumed put_back(const io::Checkpoint& checkpoint, const fs::path& folder,
         archive.require(v >= 0 && v < mesh->vertex_count(), "comes after a mesh that is none");
     return *mesh++;
   };
-  resumed.run = std::make_unique<Simulation>(resumed.changed.setup, next_mesh);
+  simulation::Setup setup = resumed.changed.setup;
+  archive.require(inputs.insertions.size() == setup.insertions.size(), "comes after other insertions");
+  for (std::size_t i = 0; i < setup.insertions.size(); ++i) {
+    setup.insertions[i].placed = inputs.insertions[i].placed;
+    setup.insertions[i].size.radii = inputs.insertions[i].radii;
+    setup.insertions[i].size.shares = inputs.insertions[i].shares;
+  }
+  resumed.run = std::make_unique<Simulation>(setup, next_mesh);
   resumed.run->load(archive);
   archive.require(archive.at_end(), "should be the last");
   if (resumed.run->total_steps() < resumed.run->steps())
@@ -142,7 +150,9 @@ Resumed from_start(const fs::path& folder, const std::vector<std::string>& overr
   log.line("there is no checkpoint: from the beginning");
   Resumed resumed;
   resumed.changed = change(read_file(folder / "case.resolved.toml"), folder, overrides);
-  resumed.run = std::make_unique<Simulation>(resumed.changed.setup, MeshLoader(resumed.changed.setup));
+  simulation::Setup setup = resumed.changed.setup;
+  io::read_insertion_files(setup);
+  resumed.run = std::make_unique<Simulation>(setup, MeshLoader(setup));
   resumed.recorder = std::make_unique<io::RunRecorder>(*resumed.run, folder);
   resumed.how.record.inputs_hash = io::inputs_hash(resumed.changed.setup);
   resumed.how.record.resumed = 1;

@@ -18,6 +18,7 @@
 #include "abradem/core/error.h"
 #include "abradem/io/atomic_file.h"
 #include "abradem/io/case_file.h"
+#include "abradem/io/insertion_files.h"
 #include "abradem/io/placement.h"
 #include "abradem/io/run_record.h"
 #include "abradem/io/run_recorder.h"
@@ -42,6 +43,8 @@ void announce(const Simulation& run, RunLog& log) {
       log.line(fmt::format("wall '{}': {} triangles, mean edge {:.4g} mm", wall.setup().name,
                            wall.surface().mesh().triangle_count(),
                            1e3 * geometry::mean_edge_length(wall.surface().mesh())));
+  if (!run.setup().insertions.empty())
+    log.line(fmt::format("{} particles in numbers at the start", run.bulk_state().present));
   log.line(fmt::format("{} steps of {:.4g} s, {} per output", run.total_steps(), run.time_step(),
                        run.steps_per_output()));
 }
@@ -124,7 +127,8 @@ std::string coarse_groove(const Simulation& run, const analysis::RevolutionRow& 
   constexpr double kEnough = 5.0, kAdvised = 8.0;  // triangles across the groove
   constexpr double kClear = 1e-6;                  // [m]; a shallower groove has no width yet
   const auto wall = analysis::worn_wall(run.walls());
-  if (!wall || row.depth_mean < kClear) return {};
+  // Sections say something of one groove, not of what a stream of particles wears.
+  if (!wall || !(row.depth_mean >= kClear) || !run.setup().insertions.empty()) return {};
   const double edge = geometry::mean_edge_length(run.walls()[*wall].surface().mesh());
   if (row.width_mean >= kEnough * edge) return {};
   return fmt::format(
@@ -145,6 +149,13 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
     log.warning(text);
     record.warnings.push_back(std::move(text));
   };
+  if (run.bulk())
+    for (const simulation::Inserter& inserter : run.bulk()->inserters())
+      if (inserter.waiting())
+        warn(fmt::format(
+            "insertion '{}': its volume was full at the last try after {} particles; what comes in lags "
+            "behind its mass_rate",
+            inserter.setup().name, inserter.inserted()));
   if (record.ledger.residual > 1e-9)
     warn(fmt::format("the ledger does not close: residual {:.3g}", record.ledger.residual));
   for (const simulation::WearSetup& wear : run.setup().wear)
@@ -250,7 +261,9 @@ int run_case(const RunOptions& options) {
                .report = options.report,
                .json = options.json};
   how.record.inputs_hash = io::inputs_hash(options.setup);
-  simulation::Setup setup = options.setup;
+  simulation::Setup given = options.setup;
+  io::read_insertion_files(given);
+  simulation::Setup setup = given;
   const bool choose = study::wants_acceleration(setup);
   if (choose) setup = study::accelerated(setup, 1.0);
   Simulation run(setup, MeshLoader(setup));
@@ -263,7 +276,7 @@ int run_case(const RunOptions& options) {
   const PathLock lock(options.output / "run.log", PathLock::Kind::exclusive);
   log.line(fmt::format("{} -> {}", options.case_path.string(), options.output.string()));
   if (choose) {
-    how.record.acceleration = choose_acceleration(options.setup, log);
+    how.record.acceleration = choose_acceleration(given, log);
     setup = study::accelerated(setup, how.record.acceleration->factor);
     run = Simulation(setup, MeshLoader(setup));
     how.resolved_text = io::resolved_case(setup);

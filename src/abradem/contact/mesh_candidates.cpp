@@ -205,11 +205,14 @@ bool MeshCandidates::restore(const TriangleMesh& mesh) {
 
 /// Local numbers of the vertices, in the order in which the triangles come to them.
 void MeshCandidates::number_nodes(const TriangleMesh& mesh) {
-  if (local_.size() != mesh.vertices.size()) local_.assign(mesh.vertices.size(), -1);
+  // One for each thread and not for each sphere: there may be thousands beside a large mesh.
+  static thread_local std::vector<std::int32_t> numbers;  // local number of a mesh vertex, or -1
+  if (numbers.size() < mesh.vertices.size()) numbers.resize(mesh.vertices.size(), -1);
+  std::int32_t* const local_of = numbers.data();
   node.clear();
   for (auto* array : {&v0, &v1, &v2}) array->resize(triangle.size());
   const auto local = [&](Index v) {
-    std::int32_t& number = local_[at(v)];
+    std::int32_t& number = local_of[at(v)];
     if (number < 0) {
       number = static_cast<std::int32_t>(node.size());
       node.push_back(v);
@@ -222,7 +225,7 @@ void MeshCandidates::number_nodes(const TriangleMesh& mesh) {
     v1[t] = local(corner[1]);
     v2[t] = local(corner[2]);
   }
-  for (const Index v : node) local_[at(v)] = -1;
+  for (const Index v : node) local_of[at(v)] = -1;
 }
 
 void MeshCandidates::allocate() {

@@ -118,11 +118,10 @@ class MeshCandidates {
   CandidateSkin built_skin_;
   double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0;
-  std::vector<Vec3> measured_;       // nodes' positions when the triangles were last measured
-  std::vector<Index> near_;          // scratch: triangles of the cells near the way
-  std::vector<double> across_;       // scratch: their distances from the way, or -1: out of reach
-  std::vector<double> around_;       // scratch: of measure_nodes
-  std::vector<std::int32_t> local_;  // scratch: local number of a mesh vertex, or -1
+  std::vector<Vec3> measured_;  // nodes' positions when the triangles were last measured
+  std::vector<Index> near_;     // scratch: triangles of the cells near the way
+  std::vector<double> across_;  // scratch: their distances from the way, or -1: out of reach
+  std::vector<double> around_;  // scratch: of measure_nodes
 };
 
 }  // namespace abradem::contact

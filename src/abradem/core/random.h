@@ -47,6 +47,12 @@ class RandomStream {
   /// Uniform in [low, high).
   constexpr double uniform(double low, double high) noexcept { return low + (high - low) * uniform(); }
 
+  /// For core/archive.h.
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("state", self.state_);
+  }
+
  private:
   static constexpr std::uint64_t rotated(std::uint64_t x, int k) noexcept {
     return (x << k) | (x >> (64 - k));

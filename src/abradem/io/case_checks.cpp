@@ -16,6 +16,7 @@
 #include "abradem/core/suggest.h"
 #include "abradem/core/units.h"
 #include "abradem/io/case_schema.h"
+#include "abradem/simulation/insertion.h"
 
 namespace abradem::io {
 namespace {
@@ -63,6 +64,7 @@ class Checker {
     check_ploughing();
     for (const WallSetup& wall : setup_.walls) check_wall(wall);
     for (const ParticleSetup& particle : setup_.particles) check_particle(particle);
+    check_insertions();
     check_run();
     check_acceleration();
     check_measurement();
@@ -106,6 +108,8 @@ class Checker {
     for (const WallSetup& w : setup_.walls) check_user(path_of("wall", w.name) + ".material", w.material);
     for (const ParticleSetup& p : setup_.particles)
       check_user(path_of("particle", p.name) + ".material", p.material);
+    for (const InsertionSetup& i : setup_.insertions)
+      check_user(path_of("insertion", i.name) + ".material", i.material);
   }
 
   // ---- pairs
@@ -150,6 +154,65 @@ class Checker {
     }
   }
 
+  void check_insertion_pairs(const InsertionSetup& insertion) {
+    const std::string path = path_of("insertion", insertion.name) + ".material";
+    require_contact(insertion.material, insertion.material, path,
+                    fmt::format("particles of insertion '{}'", insertion.name));
+    for (const WallSetup& w : setup_.walls)
+      require_contact(insertion.material, w.material, path_of("wall", w.name) + ".material",
+                      fmt::format("particles of insertion '{}' and wall '{}'", insertion.name, w.name));
+    for (const ParticleSetup& p : setup_.particles)
+      require_contact(insertion.material, p.material, path,
+                      fmt::format("particles of insertion '{}' and particle '{}'", insertion.name, p.name));
+    for (const InsertionSetup& other : setup_.insertions)
+      if (&other < &insertion)
+        require_contact(other.material, insertion.material, path,
+                        fmt::format("particles of insertions '{}' and '{}'", other.name, insertion.name));
+  }
+
+  void check_insertions() {
+    if (setup_.particles.empty() && setup_.insertions.empty() && good("particle") && good("insertion"))
+      error("", "the case has no particles: add a [particle.NAME], or an [insertion.NAME] for many");
+    for (const InsertionSetup& i : setup_.insertions) {
+      check_insertion_pairs(i);
+      const std::string path = path_of("insertion", i.name);
+      if (i.volume.shape != VolumeShape::file) check_drawn(i, path);
+    }
+    if (setup_.domain && good("domain")) {
+      const Vec3 e = setup_.domain->high - setup_.domain->low;
+      if (!(e.x > 0.0 && e.y > 0.0 && e.z > 0.0))
+        error("domain.high", "every coordinate of high must be above that of low");
+    }
+    if (!setup_.insertions.empty() && setup_.run.method == Method::quasi_static && good("run.method"))
+      error("run.method",
+            "method = \"quasi_static\" balances guided particles; with an [insertion] use \"dynamic\"");
+  }
+
+  /// An insertion whose spheres are drawn at random.
+  void check_drawn(const InsertionSetup& i, const std::string& path) {
+    const SizeSetup& size = i.size;
+    if (size.kind == SizeKind::single && !(size.radius > 0.0) && good(path + ".size.radius"))
+      error(path, "needs a size, such as size = { radius = \"3 mm\" }");
+    if (good(path + ".number") && good(path + ".mass") && (i.number == 0) == !i.mass)
+      error(path, i.mass ? "has both a number and a mass; give one of them"
+                         : "needs a number or a mass of particles to bring in");
+    const bool bounded =
+        size.kind == SizeKind::uniform || size.kind == SizeKind::normal || size.kind == SizeKind::lognormal;
+    if (bounded && !(size.low <= size.high) && good(path + ".size"))
+      error(path + ".size.high", "must not be below low");
+    if (bounded && size.kind != SizeKind::uniform && (size.mean < size.low || size.mean > size.high) &&
+        good(path + ".size"))
+      error(path + ".size.mean", "must lie between low and high, or next to none would be kept");
+    if (!good(path + ".volume")) return;
+    const double R = simulation::largest_radius(size);
+    const VolumeSetup& v = i.volume;
+    const Vec3 e = v.high - v.low;
+    const bool fits = v.shape == VolumeShape::box ? std::min({e.x, e.y, e.z}) >= 2.0 * R
+                                                  : v.radius >= R && norm(v.top - v.base) >= 2.0 * R;
+    if (!fits)
+      error(path + ".volume", fmt::format("is too small for one sphere of {:.4g} mm radius", 1e3 * R));
+  }
+
   void check_wear_pairs() {
     if (!good("wear")) return;
     bool deforms = false;
@@ -158,18 +221,20 @@ class Checker {
       deforms = true;
       const std::string path = path_of("wall", wall.name);
       std::set<std::string> asked;
-      for (const ParticleSetup& p : setup_.particles) {
-        if (!materials_.contains(p.material) || !materials_.contains(wall.material)) continue;
-        const bool known = std::ranges::any_of(setup_.wear, [&](const WearSetup& w) {
-          return w.abrader == p.material && w.worn == wall.material;
-        });
-        if (known || !asked.insert(p.material).second) continue;
+      std::vector<std::string> abraders;
+      for (const ParticleSetup& p : setup_.particles) abraders.push_back(p.material);
+      for (const InsertionSetup& i : setup_.insertions) abraders.push_back(i.material);
+      for (const std::string& abrader : abraders) {
+        if (!materials_.contains(abrader) || !materials_.contains(wall.material)) continue;
+        const bool known = std::ranges::any_of(
+            setup_.wear, [&](const WearSetup& w) { return w.abrader == abrader && w.worn == wall.material; });
+        if (known || !asked.insert(abrader).second) continue;
         error(
             path + ".deformation",
             fmt::format(
                 "wall '{}' changes its shape, but the case does not say how '{}' wears '{}'; add [{}] (with "
                 "wear_coefficient = 0 for no wear), or set deformation = \"none\"",
-                wall.name, p.material, wall.material, path_of("wear", p.material + "/" + wall.material)));
+                wall.name, abrader, wall.material, path_of("wear", abrader + "/" + wall.material)));
       }
     }
     if (!setup_.wear.empty() && !deforms && !setup_.walls.empty() && good("wall"))

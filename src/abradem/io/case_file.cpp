@@ -271,6 +271,10 @@ simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems&
     if (!file.empty()) file = fs::absolute(folder / file).lexically_normal().string();
   };
   for (simulation::WallSetup& wall : setup.walls) made_absolute(wall.mesh.file);
+  for (simulation::InsertionSetup& insertion : setup.insertions) {
+    made_absolute(insertion.size.file);
+    made_absolute(insertion.volume.file);
+  }
   if (setup.study) made_absolute(setup.study->published);
   // The default of one frame per revolution has no meaning where nothing turns.
   constexpr double kFrames = 10.0;

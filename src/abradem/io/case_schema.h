@@ -28,6 +28,7 @@ struct Target {
   simulation::WearSetup* wear = nullptr;
   simulation::WallSetup* wall = nullptr;
   simulation::ParticleSetup* particle = nullptr;
+  simulation::InsertionSetup* insertion = nullptr;
   simulation::VariationSetup* variation = nullptr;
 };
 

@@ -126,7 +126,8 @@ Value parse_assignment(std::string_view text, int source, Problems& problems) {
 /// Names of the sections whose entries the user names; an override changes what is there and adds no new one,
 /// or a slip of the finger would create a second pin.
 bool holds_named_entries(std::string_view key) {
-  return key == "material" || key == "contact" || key == "wear" || key == "wall" || key == "particle";
+  return key == "material" || key == "contact" || key == "wear" || key == "wall" || key == "particle" ||
+         key == "insertion";
 }
 
 void overlay(Value& base, const Value& change, bool named, std::string_view parent, Problems& problems) {

@@ -121,6 +121,9 @@ std::uint64_t inputs_hash(const simulation::Setup& setup) {
   add_bytes(hash, resolved_case(setup));
   for (const simulation::WallSetup& wall : setup.walls)
     if (wall.mesh.shape == simulation::MeshShape::file) add_file(hash, wall.mesh.file);
+  for (const simulation::InsertionSetup& insertion : setup.insertions)
+    for (const std::string& file : {insertion.size.file, insertion.volume.file})
+      if (!file.empty()) add_file(hash, file);
   return hash.value();
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "abradem/analysis/wall_contours.h"
 #include "abradem/core/error.h"
@@ -44,6 +45,7 @@ std::vector<double> depths_um(const wear::WearingSurface& surface) {
 
 RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder)
     : RunRecorder(run, std::move(folder), State{}) {
+  if (particles_) write_particles();
   write_frame();
 }
 
@@ -58,6 +60,12 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder, State st
               "normal_along_N", "normal_across_N", "normal_sum_N"},
              CsvWriter::Growing{state_.force_table}) {
   if (run.setup().output.frames != simulation::Frames::none) made(folder_ / "vtk");
+  if (!run.setup().insertions.empty())
+    particles_.emplace(folder_ / "tables" / "particles.csv",
+                       std::vector<std::string>{"time_s", "particles", "mass_kg", "inserted", "removed",
+                                                "removed_mass_kg", "contacts", "wall_contacts",
+                                                "kinetic_energy_J", "elastic_energy_J", "fastest_m_per_s"},
+                       CsvWriter::Growing{state_.particle_table});
   worn_wall_ = analysis::worn_wall(run.walls());
   const bool around =
       worn_wall_ && run.walls()[*worn_wall_].setup().motion.kind == simulation::MotionKind::rotation;
@@ -81,6 +89,7 @@ RunRecorder::State RunRecorder::state() const {
   now.groove_tables = groove_.positions();
   now.force_table = force_.position();
   now.normality_table = normality_->position();
+  if (particles_) now.particle_table = particles_->position();
   return now;
 }
 
@@ -89,6 +98,7 @@ void RunRecorder::sync() {
   groove_.sync();
   normality_->sync();
   force_.sync();
+  if (particles_) particles_->sync();
 }
 
 void RunRecorder::observe(const Simulation& run) {
@@ -124,10 +134,12 @@ void RunRecorder::output(bool last) {
   state_.outputs_until = run_.steps();
   tables_.add(*state_.last, contours);
   normality_->add(state_.last->revolution, contours);
+  if (particles_) write_particles();
   tables_.flush();
   groove_.flush();
   normality_->flush();
   force_.flush();
+  if (particles_) particles_->flush();
   if (last || run_.setup().output.frames == simulation::Frames::all) write_frame();
 }
 
@@ -137,7 +149,7 @@ void RunRecorder::write_frame() {
   triangles_.resize(run_.walls().size());
   for (std::size_t w = 0; w < run_.walls().size(); ++w) {
     const simulation::Wall& wall = run_.walls()[w];
-    if (wall.is_plane()) continue;
+    if (wall.is_plane() || !wall.present(run_.time())) continue;
     // A wall that keeps its shape is written once.
     const bool still = wall.setup().deformation == simulation::DeformationRule::none && state_.frame > 0;
     const std::string file = fmt::format("vtk/{}_{:04}.vtp", wall.setup().name, still ? 0 : state_.frame);
@@ -153,13 +165,44 @@ void RunRecorder::write_frame() {
     }
     state_.frames.push_back({time, file, static_cast<int>(w)});
   }
-  if (run_.particles().size() > 0) {
+  if (run_.particles().size() > 0 || run_.bulk()) {
     const std::string file = fmt::format("vtk/particles_{:04}.vtp", state_.frame);
-    write_vtp_spheres(folder_ / file, run_.particles().position, run_.particles().radius);
+    write_spheres(folder_ / file);
     state_.frames.push_back({time, file, static_cast<int>(run_.walls().size())});
   }
   write_pvd(folder_ / "series.pvd", state_.frames);
   ++state_.frame;
+}
+
+/// The named particles, then those in numbers, by id.
+void RunRecorder::write_spheres(const std::filesystem::path& path) const {
+  std::vector<Vec3> position = run_.particles().position, velocity = run_.particles().velocity;
+  std::vector<double> radius = run_.particles().radius, id(radius.size()), speeds;
+  std::iota(id.begin(), id.end(), 0.0);
+  if (run_.bulk()) {
+    const contact::Spheres& spheres = run_.bulk()->spheres();
+    std::vector<std::size_t> order(spheres.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t i) { return spheres.id[i]; });
+    for (const std::size_t i : order) {
+      if (spheres.id[i] < run_.bulk()->named()) continue;
+      position.push_back(spheres.row[i].position());
+      velocity.push_back(spheres.row[i].velocity());
+      radius.push_back(spheres.row[i].radius);
+      id.push_back(spheres.id[i]);
+    }
+  }
+  for (const Vec3& v : velocity) speeds.insert(speeds.end(), {v.x, v.y, v.z});
+  const VtpArray arrays[]{{"velocity_m_per_s", speeds, 3}, {"id", id, 1}};
+  write_vtp_spheres(path, position, radius, arrays);
+}
+
+/// tables/particles.csv: what became of the particles in numbers.
+void RunRecorder::write_particles() {
+  const simulation::BulkState s = run_.bulk_state();
+  particles_->row({run_.test_time(), static_cast<double>(s.present), s.mass, static_cast<double>(s.inserted),
+                   static_cast<double>(s.removed), s.removed_mass, static_cast<double>(s.pair_contacts),
+                   static_cast<double>(s.wall_contacts), s.kinetic_energy, s.elastic_energy, s.fastest});
 }
 
 /// tables/wear.csv: the elements of the worn wall that lost material, in its reference numbering.
@@ -188,6 +231,7 @@ void RunRecorder::close() {
   normality_->close();
   groove_.close(run_);
   force_.close();
+  if (particles_) particles_->close();
   write_elements();
 }
 

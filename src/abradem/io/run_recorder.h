@@ -30,7 +30,7 @@ class RunRecorder {
   struct State {
     WearTablePositions tables;
     GrooveTablePositions groove_tables;
-    std::uint64_t force_table = 0, normality_table = 0;  ///< bytes
+    std::uint64_t force_table = 0, normality_table = 0, particle_table = 0;  ///< bytes
     analysis::RunningStatistics normal_force;
     std::vector<PvdEntry> frames;
     int frame = 0;
@@ -41,7 +41,8 @@ class RunRecorder {
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
       archive("tables", self.tables)("groove_tables", self.groove_tables)("force_table", self.force_table);
-      archive("normality_table", self.normality_table)("normal_force", self.normal_force);
+      archive("normality_table", self.normality_table)("particle_table", self.particle_table);
+      archive("normal_force", self.normal_force);
       archive("frames", self.frames)("frame", self.frame)("outputs_until", self.outputs_until);
       archive("ledger", self.ledger)("last", self.last);
     }
@@ -72,6 +73,8 @@ class RunRecorder {
   [[nodiscard]] std::vector<analysis::Contour> cut_contours() const;
   static void keep_some_profiles(std::vector<analysis::Contour>& contours);
   void write_frame();
+  void write_spheres(const std::filesystem::path& path) const;
+  void write_particles();
   void write_elements() const;
 
   simulation::Simulation& run_;
@@ -84,6 +87,7 @@ class RunRecorder {
   GrooveTables groove_;
   std::optional<NormalityTable> normality_;
   CsvWriter force_;
+  std::optional<CsvWriter> particles_;                  // where particles come in numbers
   std::vector<std::optional<VtpTriangles>> triangles_;  // of each wall, once it has a frame
 };
 

@@ -93,7 +93,8 @@ struct WallSetup {
   ContactRule contact = ContactRule::patch;
   DeformationRule deformation = DeformationRule::none;
   Footprint footprint = Footprint::hertz;
-  int deform_every = 1;  ///< steps between updates of the shape; 1 in the rule `paper`
+  int deform_every = 1;         ///< steps between updates of the shape; 1 in the rule `paper`
+  std::optional<double> until;  ///< taken away at this time, as a gate is [s]; default: it stays
   bool operator==(const WallSetup&) const = default;
 };
 
@@ -108,6 +109,66 @@ struct ParticleSetup {
   Guide guide = Guide::none;  ///< vertical: a holder leaves only the motion along the load free, no spin
   Vec3 load;                  ///< constant force [N], besides gravity
   bool operator==(const ParticleSetup&) const = default;
+};
+
+enum class SizeKind { single, uniform, normal, lognormal, table };
+/// How large the spheres of an insertion are, by number.
+struct SizeSetup {
+  SizeKind kind = SizeKind::single;
+  double radius = 0.0;           ///< single [m]
+  double low = 0.0, high = 0.0;  ///< uniform; bounds of normal and lognormal [m]
+  double mean = 0.0, sd = 0.0;   ///< normal, lognormal: of the radius itself [m]
+  std::string file;              ///< table: its CSV file, absolute
+  std::vector<double> radii;     ///< table, as read [m]
+  std::vector<double> shares;    ///< table: of the number of spheres, any sum
+  bool operator==(const SizeSetup&) const = default;
+};
+
+enum class VolumeShape { box, cylinder, file };
+/// Where spheres are put: their whole bodies lie inside.
+struct VolumeSetup {
+  VolumeShape shape = VolumeShape::box;
+  Vec3 low, high;       ///< box [m]
+  Vec3 base, top;       ///< cylinder: centres of its ends [m]
+  double radius = 0.0;  ///< cylinder [m]
+  std::string file;     ///< file: CSV with a place for every sphere, absolute
+  bool operator==(const VolumeSetup&) const = default;
+};
+
+/// A sphere of an insertion at a given place.
+struct PlacedSphere {
+  Vec3 position;        ///< [m]
+  double radius = 0.0;  ///< [m]
+  Vec3 velocity;        ///< [m/s]
+  bool operator==(const PlacedSphere&) const = default;
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("position", self.position)("radius", self.radius)("velocity", self.velocity);
+  }
+};
+
+/// Particles in numbers, all of one material.
+struct InsertionSetup {
+  std::string name;
+  std::string material;
+  SizeSetup size;
+  VolumeSetup volume;
+  std::uint64_t number = 0;          ///< how many in all; 0: by mass
+  std::optional<double> mass;        ///< how much in all [kg]
+  std::optional<double> mass_rate;   ///< over time [kg/s]; default: all at the start
+  double start = 0.0;                ///< time at which it begins [s]
+  Vec3 velocity;                     ///< [m/s]
+  std::vector<PlacedSphere> placed;  ///< given places, instead of volume, size and number
+  bool operator==(const InsertionSetup&) const = default;
+};
+
+enum class Outside { remove, stop };
+/// What becomes of particles in numbers that leave a box.
+struct DomainSetup {
+  Vec3 low, high;  ///< [m]
+  Outside outside = Outside::remove;
+  bool operator==(const DomainSetup&) const = default;
 };
 
 /// A length of the run: a time, or a number of revolutions (cycles) of the first wall that turns
@@ -202,6 +263,8 @@ struct Setup {
   std::optional<PloughingSetup> ploughing;
   std::vector<WallSetup> walls;
   std::vector<ParticleSetup> particles;
+  std::vector<InsertionSetup> insertions;
+  std::optional<DomainSetup> domain;
   RunSetup run;
   OutputSetup output;
   std::optional<MeasurementSetup> measurement;

@@ -69,14 +69,7 @@ void Simulation::find_pair_properties() {
     pairs_[a * n + b] = pairs_[b * n + a] = p;
     given[a * n + b] = given[b * n + a] = 1;
   }
-  for (const ParticleSetup& particle : setup_.particles)
-    for (const WallSetup& wall : setup_.walls) {
-      const auto a = static_cast<std::size_t>(index_of(setup_.materials, particle.material, "material"));
-      const auto b = static_cast<std::size_t>(index_of(setup_.materials, wall.material, "material"));
-      if (given[a * n + b] == 0)
-        throw InputError(fmt::format("particle '{}' can meet wall '{}', but no [contact.\"{}/{}\"] says how",
-                                     particle.name, wall.name, particle.material, wall.material));
-    }
+  refuse_missing_pairs(given);
   wear_.assign(n * n, 0.0);
   for (const WearSetup& w : setup_.wear) {
     const auto a = static_cast<std::size_t>(index_of(setup_.materials, w.abrader, "material"));
@@ -95,6 +88,34 @@ void Simulation::find_pair_properties() {
   }
 }
 
+/// Everything that can meet needs a [contact] of its materials. @param given of each pair of materials
+void Simulation::refuse_missing_pairs(const std::vector<char>& given) const {
+  struct Body {
+    std::string title, material;
+    bool alone;  ///< nothing of its own kind can meet it
+  };
+  std::vector<Body> bodies;
+  for (const ParticleSetup& p : setup_.particles)
+    bodies.push_back({fmt::format("particle '{}'", p.name), p.material, true});
+  for (const InsertionSetup& i : setup_.insertions)
+    bodies.push_back({fmt::format("insertion '{}'", i.name), i.material, false});
+  const std::size_t moving = bodies.size();
+  for (const WallSetup& wall : setup_.walls)
+    bodies.push_back({fmt::format("wall '{}'", wall.name), wall.material, true});
+  for (std::size_t i = 0; i < moving; ++i)
+    for (std::size_t j = i; j < bodies.size(); ++j) {
+      if (i == j && bodies[i].alone) continue;
+      const auto a = static_cast<std::size_t>(index_of(setup_.materials, bodies[i].material, "material"));
+      const auto b = static_cast<std::size_t>(index_of(setup_.materials, bodies[j].material, "material"));
+      if (given[a * materials_.size() + b] != 0) continue;
+      const std::string pair = fmt::format("[contact.\"{}/{}\"]", bodies[i].material, bodies[j].material);
+      throw InputError(
+          i == j ? fmt::format("the particles of {} can meet one another, but no {} says how",
+                               bodies[i].title, pair)
+                 : fmt::format("{} can meet {}, but no {} says how", bodies[i].title, bodies[j].title, pair));
+    }
+}
+
 double Simulation::wear_coefficient(int abrader, int worn) const {
   return wear_[static_cast<std::size_t>(abrader) * materials_.size() + static_cast<std::size_t>(worn)];
 }
@@ -107,6 +128,8 @@ double Simulation::groove_coefficient(int abrader, int worn) const {
 
 void Simulation::check_ploughing() const {
   if (!setup_.ploughing) return;
+  if (!setup_.insertions.empty() && ploughs())
+    throw InputError("[ploughing] piles up what named particles displace; with an [insertion] leave it out");
   const PloughingSetup& p = *setup_.ploughing;
   if (!(p.removed_fraction >= 0.0 && p.removed_fraction <= 1.0))
     throw InputError(
@@ -146,8 +169,8 @@ void Simulation::add_particles() {
   particles_.torque.resize(particles_.size());
   stiffness_ratio_.assign(particles_.size(), 0.0);
   growth_.assign(particles_.size(), 0.0);
-  for (std::size_t i = 0; i < particles_.size(); ++i)
-    for (std::size_t j = i + 1; j < particles_.size(); ++j) sphere_pairs_.push_back({i, j, {}, 0.0});
+  if (particles_.size() > 1 || !setup_.insertions.empty())
+    bulk_.emplace(setup_, materials_, pairs_, particles_);
 }
 
 /// A map for every guided sphere that some wall wears; as fine as a quarter of its first contact.
@@ -222,6 +245,11 @@ void Simulation::choose_time_step() {
 
   double wanted = setup_.run.time_step.value;
   if (setup_.run.method == Method::quasi_static) {
+    if (!setup_.insertions.empty())
+      throw InputError("method quasi_static balances guided particles; with an [insertion] use dynamic");
+    for (const WallSetup& wall : setup_.walls)
+      if (wall.until)
+        throw InputError(fmt::format("wall '{}' goes away on the way; use method dynamic", wall.name));
     double speed = 0.0;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       if (particles_.guide[p] == Vec3{} || norm(particles_.load[p]) == 0.0)
@@ -238,6 +266,11 @@ void Simulation::choose_time_step() {
       shortest = std::min(
           shortest, material::rayleigh_time(materials_[static_cast<std::size_t>(particles_.material[p])],
                                             particles_.radius[p]));
+    for (const InsertionSetup& i : setup_.insertions) {
+      const auto& m =
+          materials_[static_cast<std::size_t>(index_of(setup_.materials, i.material, "material"))];
+      shortest = std::min(shortest, material::rayleigh_time(m, smallest_radius(i)));
+    }
     wanted *= shortest;
   }
   if (!(wanted > 0.0) || !std::isfinite(wanted)) throw InputError("the time step must be > 0");
@@ -313,9 +346,18 @@ void Simulation::find_contacts() {
   }
   core::parallel_for(sphere_walls_.size(), [&](std::size_t k) {
     const std::size_t p = k / walls_.size(), w = k % walls_.size();
+    if (!walls_[w].present(time())) {
+      sphere_walls_[k].let_go();
+      return;
+    }
     sphere_walls_[k].find(walls_[w], centre(p, w), particles_.radius[p],
                           pair(particles_.material[p], walls_[w].material()));
   });
+  if (bulk_) bulk_->find_contacts(surroundings(), particles_, paper_);
+}
+
+Surroundings Simulation::surroundings() noexcept {
+  return {walls_, poses_, pairs_, materials_.size(), dt_, time(), setup_.run.gravity};
 }
 
 void Simulation::compute_forces() {
@@ -333,99 +375,7 @@ void Simulation::compute_forces() {
     particles_.force[p] = force;
     particles_.torque[p] = torque;
   });
-  compute_sphere_pairs();
-}
-
-/// All pairs: for the handful of named particles of a case.
-void Simulation::compute_sphere_pairs() {
-  for (SpherePair& sp : sphere_pairs_) {
-    const auto [i, j] = std::pair(sp.i, sp.j);
-    const Vec3 offset = particles_.position[i] - particles_.position[j];
-    const double R_i = particles_.radius[i], R_j = particles_.radius[j], reach = R_i + R_j;
-    sp.overlap = 0.0;
-    if (norm2(offset) >= reach * reach) {
-      sp.history = {};
-      continue;
-    }
-    const double distance = norm(offset), m_i = particles_.mass[i], m_j = particles_.mass[j];
-    const Vec3 n = offset / distance;
-    const double R_eff = R_i * R_j / reach, m_eff = m_i * m_j / (m_i + m_j), overlap = reach - distance;
-    sp.overlap = overlap;
-    const contact::PairProperties& properties = pair(particles_.material[i], particles_.material[j]);
-    const Vec3 v = particles_.velocity[i] - particles_.velocity[j] -
-                   cross(R_i * particles_.spin[i] + R_j * particles_.spin[j], n);
-    const contact::ContactState state{n, contact::hertz_force(properties, R_eff, overlap),
-                                      contact::contact_radius(R_eff, overlap), m_eff, v};
-    const contact::ContactForce f = contact::hertz_mindlin(properties, state, dt_, sp.history);
-    const Vec3 force = f.F_n * n + f.F_t;
-    particles_.force[i] += force;
-    particles_.force[j] -= force;
-    const double I_i = 0.4 * m_i * R_i * R_i, I_j = 0.4 * m_j * R_j * R_j;
-    const Vec3 rolling = contact::rolling_torque(
-        properties, R_eff, f.F_n, particles_.spin[i] - particles_.spin[j], I_i * I_j / (I_i + I_j), dt_);
-    particles_.torque[i] += cross(-R_i * n, f.F_t) + rolling;
-    particles_.torque[j] += cross(R_j * n, -f.F_t) - rolling;
-  }
-}
-
-double Simulation::slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept {
-  // Ours wears by the plastic slip. The paper's rules wear by |v_t| dt whether the contact sticks or slips
-  // (eq. 5): their springs begin anew on every element, so what they call slip would come short.
-  const bool by_speed = wall.deformation == DeformationRule::paper ||
-                        wall.contact == ContactRule::per_triangle ||
-                        setup_.run.method == Method::quasi_static;
-  return by_speed ? touch.force.v_t * dt_ : touch.force.slip;
-}
-
-void Simulation::accumulate_wear() {
-  for (std::size_t p = 0; p < particles_.size(); ++p)
-    for (std::size_t w = 0; w < walls_.size(); ++w) {
-      Wall& wall = walls_[w];
-      const double alpha_s = groove_coefficient(particles_.material[p], wall.material());
-      if (alpha_s != 0.0) {
-        const double volume = sphere_walls_[p * walls_.size() + w].deposit(
-            wall, alpha_s, particles_.radius[p], pair(particles_.material[p], wall.material()),
-            [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); });
-        if (ploughs())
-          plough(p, w, volume);
-        else
-          law_[w] += volume;
-      }
-      if (tips_[p]) wear_tip(p, w);
-    }
-}
-
-void Simulation::wear_tip(std::size_t p, std::size_t w) {
-  const double alpha_s = wear_coefficient(walls_[w].material(), particles_.material[p]);
-  if (alpha_s == 0.0) return;
-  tip_law_[p] += sphere_walls_[p * walls_.size() + w].wear_tip(
-      *tips_[p], walls_[w], alpha_s, pair(particles_.material[p], walls_[w].material()), output_due(),
-      [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
-}
-
-/// Of what leaves the groove the removed fraction is lost, and the rest is piled up beside the contact.
-void Simulation::plough(std::size_t p, std::size_t w, double groove_volume) {
-  // Piles may lie apart where many passes share them.
-  constexpr double kRevolutions = 24.0, kNearest = 0.5, kFurthest = 8.0;
-  const double removed = removed_fraction() * groove_volume, displaced = groove_volume - removed;
-  law_[w] += removed;
-  displaced_[w] += displaced;
-  Wall& wall = walls_[w];
-  if (wall.is_plane()) return;
-  const geometry::Pose& pose = poses_[w];
-  const Vec3& u = particles_.velocity[p];
-  const Vec3 sliding = u - pose.velocity_at(particles_.position[p]), v = pose.turn_back(sliding);
-  // The path over a wall that turns bends, by Coriolis' and the centrifugal acceleration.
-  const double speed2 = norm2(sliding);
-  const Vec3 turning =
-      speed2 > 0.0 ? pose.turn_back(cross(pose.spin, u + sliding)) * (-1.0 / speed2) : Vec3{};
-  const double n = period_ > 0.0 ? end_ / period_ : 0.0;
-  const wear::Ploughing ploughing{removed_fraction(), std::tan(setup_.ploughing->ridge_angle),
-                                  setup_.ploughing->ahead};
-  sphere_walls_[p * walls_.size() + w].plough(
-      wall, ploughing,
-      {displaced, v, turning, norm(v) * dt_, std::clamp(n / kRevolutions, kNearest, kFurthest), output_due()},
-      particles_.radius[p], pair(particles_.material[p], wall.material()));
+  if (bulk_) bulk_->compute_forces(surroundings(), particles_);
 }
 
 void Simulation::deform_walls() {
@@ -465,23 +415,18 @@ void Simulation::integrate() {
     particles_.velocity[p] += dv;
     particles_.position[p] += particles_.velocity[p] * dt_;
   }
+  if (bulk_) bulk_->integrate(surroundings());
 }
 
 void Simulation::record() {
   check_state();
+  if (bulk_) bulk_->check(surroundings(), steps_);
   watch_stability();
   ++steps_;
   const bool due = steps_ % steps_per_output_ == 0 || finished();
   if (due) book_elements();
   if (due || ledger_due()) check_ledger();
   if (observer_) observer_(*this);
-}
-
-/// Brings the surfaces' record of worn elements up to date; in the order of particles, so that the sums do
-/// not depend on threads.
-void Simulation::book_elements() {
-  for (std::size_t k = 0; k < sphere_walls_.size(); ++k)
-    if (Wall& wall = walls_[k % walls_.size()]; !wall.is_plane()) sphere_walls_[k].book_elements(wall);
 }
 
 ForceSample Simulation::force_on(std::size_t p) const noexcept {
@@ -515,62 +460,6 @@ NormalParts Simulation::normal_parts_on(std::size_t p) const noexcept {
   return total;
 }
 
-double Simulation::law_volume() const noexcept {
-  double sum = 0.0;
-  for (const double v : law_) sum += v;
-  return sum;
-}
-
-Ledger Simulation::ledger() {
-  Ledger ledger;
-  double conserving_law = 0.0, conserving_swept = 0.0;
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    const Wall& wall = walls_[w];
-    if (wall.is_plane()) continue;
-    for (std::size_t p = 0; p < particles_.size(); ++p)
-      if (wall.setup().deformation == DeformationRule::conserving)
-        paper_[w] += sphere_walls_[p * walls_.size() + w].take_centroid_volume(wall);
-    const double swept = wall.surface().swept_volume();
-    double unpiled = 0.0;
-    ledger.law += law_[w];
-    ledger.deposited += wall.surface().deposited_volume();
-    for (std::size_t p = 0; p < particles_.size(); ++p) {
-      ledger.deposited += sphere_walls_[p * walls_.size() + w].pending_volume();
-      unpiled += sphere_walls_[p * walls_.size() + w].unpiled_volume();
-    }
-    ledger.swept += swept;
-    ledger.paper += paper_[w];
-    ledger.displaced += displaced_[w];
-    ledger.piled += wall.surface().raised_volume();
-    ledger.unpiled += unpiled;
-    if (wall.setup().deformation == DeformationRule::conserving)
-      conserving_law += law_[w] + unpiled, conserving_swept += swept;
-  }
-  if (const double groove = ledger.law + ledger.displaced; groove > 0.0) {
-    ledger.residual = std::max(std::abs(ledger.deposited - ledger.unpiled - ledger.law),
-                               std::abs(conserving_swept - conserving_law)) /
-                      groove;
-    if (ploughs())
-      ledger.residual =
-          std::max(ledger.residual, std::abs(ledger.piled + ledger.unpiled - ledger.displaced) / groove);
-  }
-  if (ledger.law > 0.0) ledger.kappa = ledger.swept / ledger.law;
-  for (std::size_t p = 0; p < tips_.size(); ++p) {
-    if (!tips_[p]) continue;
-    double pending = 0.0;
-    for (std::size_t w = 0; w < walls_.size(); ++w)
-      pending += sphere_walls_[p * walls_.size() + w].tip_pending();
-    ledger.tip_law += tip_law_[p];
-    ledger.tip_deposited += tips_[p]->deposited_volume() + pending;
-    ledger.tip_removed += tips_[p]->removed_volume() + pending;
-  }
-  if (ledger.tip_law > 0.0)
-    ledger.tip_residual = std::max(std::abs(ledger.tip_deposited - ledger.tip_law),
-                                   std::abs(ledger.tip_removed - ledger.tip_law)) /
-                          ledger.tip_law;
-  return ledger;
-}
-
 int Simulation::elements_in_contact(std::size_t p) const {
   int count = 0;
   for (std::size_t w = 0; w < walls_.size(); ++w)
@@ -593,7 +482,7 @@ std::uint64_t Simulation::state_hash() const {
   for (const SphereWall& sw : sphere_walls_) sw.add_to(hash);
   for (const auto& tip : tips_)
     if (tip) hash.add(std::span<const double>(tip->shape().recession));
-  for (const SpherePair& sp : sphere_pairs_) hash.add(sp.history.s);
+  if (bulk_) bulk_->add_to(hash);
   return hash.value();
 }
 
@@ -603,7 +492,7 @@ double Simulation::kinetic_energy() const noexcept {
     energy += 0.5 * particles_.mass[p] *
               (norm2(particles_.velocity[p]) +
                0.4 * particles_.radius[p] * particles_.radius[p] * norm2(particles_.spin[p]));
-  return energy;
+  return energy + bulk_state().kinetic_energy;
 }
 
 }  // namespace abradem::simulation

@@ -9,21 +9,14 @@
 
 #include "abradem/contact/hertz_mindlin.h"
 #include "abradem/core/archive.h"
+#include "abradem/simulation/bulk.h"
+#include "abradem/simulation/particles.h"
 #include "abradem/simulation/setup.h"
 #include "abradem/simulation/sphere_wall.h"
 #include "abradem/simulation/wall.h"
 #include "abradem/wear/wearing_tip.h"
 
 namespace abradem::simulation {
-
-/// Spheres as arrays; SI.
-struct Particles {
-  std::vector<Vec3> position, velocity, spin, force, torque, load, guide;  ///< guide: free direction, or zero
-  std::vector<double> radius, mass;
-  std::vector<int> material;
-  std::vector<std::string> name;
-  [[nodiscard]] std::size_t size() const noexcept { return radius.size(); }
-};
 
 /// What of the material lost is accounted for [m^3].
 struct Ledger {
@@ -154,24 +147,22 @@ class Simulation {
   /// to the same bits.
   /// @throws IoError when the archive is of something else, or damaged; the run is then of no use
   void load(core::ArchiveReader& archive);
+  /// Particles in numbers and the contacts among spheres; none in a case of one particle.
+  [[nodiscard]] const std::optional<Bulk>& bulk() const noexcept { return bulk_; }
+  [[nodiscard]] BulkState bulk_state() const { return bulk_ ? bulk_->state(pairs_) : BulkState{}; }
+  /// Sum of the contact forces of particles in numbers on a wall, at the last step [N].
+  [[nodiscard]] Vec3 bulk_force_on_wall(std::size_t wall) const noexcept {
+    return bulk_ ? bulk_->walls().force_on(wall) : Vec3{};
+  }
   /// Kinetic energy of all particles [J].
   [[nodiscard]] double kinetic_energy() const noexcept;
 
  private:
-  struct SpherePair {
-    std::size_t i, j;
-    contact::TangentialHistory history;
-    double overlap = 0.0;  // of this step [m]
-
-    template <typename Self, typename Archive>
-    static void visit(Self& self, Archive& archive) {
-      archive("history", self.history);
-    }
-  };
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive);
 
   void add_particles();
+  [[nodiscard]] Surroundings surroundings() noexcept;
   void add_tips();
   void check_ploughing() const;
   [[nodiscard]] double removed_fraction() const noexcept {
@@ -190,6 +181,8 @@ class Simulation {
   [[nodiscard]] const contact::PairProperties& pair(int a, int b) const {
     return pairs_[static_cast<std::size_t>(a) * setup_.materials.size() + static_cast<std::size_t>(b)];
   }
+  void refuse_missing_pairs(const std::vector<char>& given) const;
+  [[nodiscard]] double plane_wear(std::size_t wall) const;
   [[nodiscard]] double wear_coefficient(int abrader, int worn) const;
 
   void move_walls();
@@ -200,7 +193,6 @@ class Simulation {
   void integrate();
   void record();
 
-  void compute_sphere_pairs();
   void find_equilibrium(std::size_t p);
   [[nodiscard]] double slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept;
   void book_elements();
@@ -217,8 +209,8 @@ class Simulation {
   Particles particles_;
   std::vector<Wall> walls_;
   std::vector<geometry::Pose> poses_;
-  std::vector<SphereWall> sphere_walls_;  // particle-major
-  std::vector<SpherePair> sphere_pairs_;
+  std::vector<SphereWall> sphere_walls_;               // particle-major
+  std::optional<Bulk> bulk_;                           // where spheres can meet spheres, or come in numbers
   std::vector<double> law_, paper_;                    // per wall [m^3]
   std::vector<double> displaced_;                      // per wall, ploughed aside [m^3]
   std::vector<std::optional<wear::WearingTip>> tips_;  // per particle

@@ -64,6 +64,7 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
                           .deepest = p.deepest,
                           .key = -1,
                           .part = static_cast<int>(i),
+                          .nearest = -1,
                           .force = {}});
     }
   } else {
@@ -79,6 +80,7 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
                           .deepest = p.overlap,
                           .key = resolved ? -1 : candidates_.triangle[at(p.triangle)],
                           .part = resolved ? p.set : p.triangle,
+                          .nearest = p.triangle,
                           .force = {}});
   }
   if (!touches_.empty()) axis_ = -touches_.front().n;
@@ -97,6 +99,7 @@ void SphereWall::touch_plane(const Wall& wall, const Vec3& c, double R, const co
                       .deepest = overlap,
                       .key = -1,
                       .part = 0,
+                      .nearest = -1,
                       .force = {}});
 }
 
@@ -139,6 +142,28 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
   return total;
 }
 
+/// Where the Hertz footprint lies wholly inside one triangle, its pressure is symmetric about the nearest
+/// point, so that its moments with the (linear) shape functions are these functions there: no integral is
+/// needed.
+bool SphereWall::deposit_inside(Wall& wall, const Touch& touch, double dV, double R,
+                                const contact::PairProperties& pair) {
+  const auto t = static_cast<std::size_t>(touch.nearest);
+  const double a = contact::contact_radius(R, contact::hertz_overlap(pair, R, touch.force.F_n));
+  const Vec3 p0 = candidates_.node_position(at(candidates_.v0[t])),
+             p1 = candidates_.node_position(at(candidates_.v1[t])),
+             p2 = candidates_.node_position(at(candidates_.v2[t]));
+  const Vec3 area = cross(p1 - p0, p2 - p0);
+  const double area2 = norm2(area);
+  // Shares of the area opposite each corner; over an edge's length, distances from the edges.
+  const double b0 = dot(area, cross(p2 - p1, touch.point - p1)) / area2,
+               b1 = dot(area, cross(p0 - p2, touch.point - p2)) / area2, b2 = 1.0 - b0 - b1;
+  const double size = std::sqrt(area2);
+  if (b0 * size < a * norm(p2 - p1) || b1 * size < a * norm(p0 - p2) || b2 * size < a * norm(p1 - p0))
+    return false;
+  wall.surface().deposit(candidates_.triangle[t], dV, dV * b0, dV * b1, dV * b2);
+  return true;
+}
+
 void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R,
                              const contact::PairProperties& pair) {
   if (wall.is_plane()) return;
@@ -161,6 +186,9 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
     return;
   }
 
+  if (wall.setup().contact == ContactRule::resolved && !paper && !tip_.worn() &&
+      wall.setup().footprint == Footprint::hertz && deposit_inside(wall, touch, dV, R, pair))
+    return;
   const std::span<const char> mask = mask_of(wall, touch.part);
   const wear::OverlapField field = overlap_field(wall, R, touch.deepest);
   const wear::FootprintShares& shares =

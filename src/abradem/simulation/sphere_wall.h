@@ -47,13 +47,14 @@ class SphereWall {
     double deepest = 0.0;        ///< largest local overlap [m]
     int key = -1;                ///< per_triangle: mesh triangle
     int part = 0;                ///< patch or flat set that it stands for
+    int nearest = -1;            ///< point contacts: candidate triangle that holds the nearest point
     contact::ContactForce force;
 
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
       archive("n", self.n)("point", self.point)("overlap", self.overlap);
       archive("elastic_force", self.elastic_force)("a", self.a)("deepest", self.deepest);
-      archive("key", self.key)("part", self.part)("force", self.force);
+      archive("key", self.key)("part", self.part)("nearest", self.nearest)("force", self.force);
     }
   };
 
@@ -66,6 +67,12 @@ class SphereWall {
   /// Finds the contacts of the sphere at c, in the wall's frame. Touches nothing but this object: many may
   /// run at once.
   void find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
+
+  /// The wall is gone: no contacts, and none remembered.
+  void let_go() noexcept {
+    touches_.clear();
+    memory_.clear();
+  }
 
   /// Forces of the contacts found [world frame], and their histories one step on.
   ForceAndTorque compute(const Wall& wall, const geometry::Pose& pose, const SphereState& sphere,
@@ -193,6 +200,8 @@ class SphereWall {
   void shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair, bool due);
   void press(wear::WearingTip& tip, const Wall& wall, const Spot& spot, double d_e);
   void deposit_one(Wall& wall, const Touch& touch, double dV, double R, const contact::PairProperties& pair);
+  bool deposit_inside(Wall& wall, const Touch& touch, double dV, double R,
+                      const contact::PairProperties& pair);
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
   contact::TangentialHistory& recall(const Touch& touch, ContactRule rule);
   void add_centroid_motion(const Wall& wall);

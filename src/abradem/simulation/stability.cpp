@@ -42,6 +42,7 @@ double stable_step(double stiffness, double damping, double mass) noexcept {
 /// of the scheme and not of the contact. A peak of few steps is none; what grows a thousandfold is.
 void Simulation::watch_stability() {
   if (setup_.run.method == Method::quasi_static) return;
+  if (bulk_) worst_damping_ = std::max(worst_damping_, bulk_->worst_stability());
   const double kLargestGrowth = std::log(1e3);
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     double stiffness = 0.0, damping = 0.0;
@@ -92,6 +93,12 @@ std::vector<StabilityLimit> Simulation::limits() const {
         number = std::max(
             number, scheme_of(S, contact::damping_coefficient(properties, S, mass), mass, dt_).number());
     }
+  }
+  for (const InsertionSetup& i : setup_.insertions) {
+    const auto m =
+        std::ranges::find(setup_.materials, i.material, &MaterialSetup::name) - setup_.materials.begin();
+    rayleigh = std::max(
+        rayleigh, dt_ / material::rayleigh_time(materials_[static_cast<std::size_t>(m)], smallest_radius(i)));
   }
   return {{"time step / Rayleigh time", rayleigh, 0.4, "-"},
           {"time step / Hertz impact time", hertz, 0.1, "-"},

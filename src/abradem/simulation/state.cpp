@@ -21,7 +21,8 @@ void Simulation::visit(Self& self, Archive& archive) {
   for (auto& tip : self.tips_)
     if (tip) archive("tip", *tip);
   archive.fixed("tip_law", self.tip_law_);
-  archive.fixed("sphere_walls", self.sphere_walls_).fixed("sphere_pairs", self.sphere_pairs_);
+  archive.fixed("sphere_walls", self.sphere_walls_);
+  if (self.bulk_) archive("bulk", *self.bulk_);
   archive.fixed("stiffness_ratio", self.stiffness_ratio_)("worst_damping", self.worst_damping_);
   archive.fixed("growth", self.growth_);
 }
@@ -45,6 +46,7 @@ void Simulation::load(core::ArchiveReader& archive) {
   for (std::size_t k = 0; k < sphere_walls_.size(); ++k)
     archive.require(sphere_walls_[k].restore(walls_[k % walls_.size()]),
                     "belongs to candidates that do not fit the wall");
+  archive.require(!bulk_ || bulk_->restore(surroundings()), "belongs to particles that do not fit the case");
 }
 
 }  // namespace abradem::simulation

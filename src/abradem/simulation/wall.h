@@ -35,6 +35,8 @@ class Wall {
 
   /// Pose at a time. Closed form of the time, so that it never drifts.
   [[nodiscard]] geometry::Pose pose_at(double time) const noexcept;
+  /// Is it still there at this time [s]? (See WallSetup::until.)
+  [[nodiscard]] bool present(double time) const noexcept { return !setup_.until || time < *setup_.until; }
   /// Time of one turn or one cycle [s]; none for a wall that does neither.
   [[nodiscard]] std::optional<double> period() const noexcept;
 

@@ -65,6 +65,10 @@ void Simulation::limit_energies() {
   }
   const double extent = norm(high - low);
   energy_limit_.assign(particles_.size(), 0.0);
+  if (!setup_.insertions.empty()) {  // whatever comes in may hit them
+    energy_limit_.assign(particles_.size(), std::numeric_limits<double>::infinity());
+    return;
+  }
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     const double m = particles_.mass[p], R = particles_.radius[p];
     const double force = norm(particles_.load[p]) + m * norm(setup_.run.gravity);
@@ -149,12 +153,6 @@ void Simulation::check_state() const {
       throw SimulationError(
           fmt::format("wall '{}', step {}, {:.6g} s: what it has lost is no longer a number. {}",
                       walls_[w].setup().name, steps_, time(), kGeneral));
-  for (const SpherePair& pair : sphere_pairs_)
-    if (pair.overlap > kDeepest * std::min(particles_.radius[pair.i], particles_.radius[pair.j]))
-      fail(pair.i,
-           fmt::format("its overlap with particle '{}' is {:.4g} mm, more than a tenth of the smaller radius",
-                       particles_.name[pair.j], 1e3 * pair.overlap),
-           kGeneral);
 }
 
 /// Between outputs too, where no wear waits for an update of the surface.

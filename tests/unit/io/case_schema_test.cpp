@@ -44,7 +44,7 @@ TEST(CaseJsonSchema, StatesChoicesDefaultsAndWhatIsRequired) {
   EXPECT_EQ(wall.at("properties").at("contact").at("enum"), Json({"patch", "resolved", "per_triangle"}));
   EXPECT_EQ(wall.at("properties").at("contact").at("default"), "patch");
   EXPECT_EQ(wall.at("required"), Json({"material", "mesh"}));
-  EXPECT_EQ(schema.at("required"), Json({"schema", "material", "wall", "particle", "run"}));
+  EXPECT_EQ(schema.at("required"), Json({"schema", "material", "wall", "run"}));
   EXPECT_EQ(section_of(schema, "run").at("properties").at("time_step").at("default"), "20% rayleigh");
   const Json& mesh = section_of(schema, "wall.*.mesh");
   EXPECT_EQ(mesh.at("allOf").at(0).at("then"), Json::parse(R"({"required": ["inner"]})"));

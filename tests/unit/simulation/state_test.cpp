@@ -11,24 +11,15 @@
 #include "abradem/core/random.h"
 #include "abradem/simulation/simulation.h"
 #include "support/cases.h"
+#include "support/state.h"
 
 namespace abradem::simulation {
 namespace {
 
-/// Everything, as bytes: more than the state's hash.
-std::string saved(const Simulation& run) {
-  core::ArchiveWriter archive;
-  run.save(archive);
-  return archive.take();
-}
-
-Simulation loaded(const Setup& setup, const std::string& bytes) {
-  Simulation run(setup);
-  core::ArchiveReader archive(bytes);
-  run.load(archive);
-  EXPECT_TRUE(archive.at_end());
-  return run;
-}
+using test::expect_same_bits_from_anywhere;
+using test::finish;
+using test::loaded;
+using test::saved;
 
 test::PinOnDisc small_case() {
   test::PinOnDisc pin;
@@ -36,36 +27,6 @@ test::PinOnDisc small_case() {
   pin.half_band = 0.9e-3;
   pin.size = 0.2e-3;
   return pin;
-}
-
-void finish(Simulation& run, std::uint64_t steps) {
-  while (run.steps() < steps) run.step();
-}
-
-/// Saves at many steps, goes on from each in a new run, and compares with the run that was never broken off.
-void expect_same_bits_from_anywhere(const Setup& setup, std::uint64_t steps) {
-  Simulation whole(setup);
-  std::vector<std::string> states;
-  while (whole.steps() < steps) {
-    states.push_back(saved(whole));
-    whole.step();
-  }
-  const std::string end = saved(whole);
-  const Ledger ledger = whole.ledger();
-  EXPECT_GT(ledger.law, 0.0);
-  core::RandomStream random(7, 1);
-  for (int i = 0; i < 12; ++i) {
-    const auto from = static_cast<std::size_t>(random.uniform() * static_cast<double>(steps));
-    Simulation run = loaded(setup, states[from]);
-    EXPECT_TRUE(saved(run) == states[from]) << "from step " << from;
-    finish(run, steps);
-    EXPECT_TRUE(saved(run) == end) << "from step " << from;
-    EXPECT_EQ(run.state_hash(), whole.state_hash()) << "from step " << from;
-    const Ledger other = run.ledger();
-    EXPECT_EQ(other.swept, ledger.swept);
-    EXPECT_EQ(other.paper, ledger.paper);
-    EXPECT_EQ(other.deposited, ledger.deposited);
-  }
 }
 
 struct Rules {

@@ -144,7 +144,8 @@ TEST(Watchdog, TwoBallsInOneAnotherStopTheRun) {
   s.particles[1].position.z += 1.85 * s.particles[0].radius;
   s.contacts.push_back({"iron_ore", "iron_ore", 0.4, 0.5, 0.0});
   Simulation run(s);
-  EXPECT_TRUE(says(stopped(run, 1), {"particle 'pin', step 0", "overlap with particle 'other' is 0.45 mm"}));
+  EXPECT_TRUE(says(stopped(run, 1),
+                   {"particle 'pin' at (", "step 0, 0 s", "overlap with particle 'other' is 0.45 mm"}));
 }
 
 TEST(Watchdog, AGuidedParticleThatLeftItsWallsStopsTheRun) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/io/insertion_files.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "abradem/core/error.h"
+#include "abradem/io/csv.h"
+
+namespace abradem::io {
+
+namespace {
+
+using namespace simulation;
+
+/// A column in which every number is finite and, where wanted, above 0.
+std::vector<double> checked(const CsvTable& table, const std::string& file, const char* name, bool positive) {
+  std::vector<double> values = table.column(name);
+  for (std::size_t r = 0; r < values.size(); ++r)
+    if (!std::isfinite(values[r]) || (positive && !(values[r] > 0.0)))
+      throw InputError(fmt::format("{}:{}: {} = {}; must be a number{}", file, r + 2, name, values[r],
+                                   positive ? " > 0" : ""));
+  if (values.empty()) throw InputError(fmt::format("'{}' has no rows", file));
+  return values;
+}
+
+}  // namespace
+
+void read_insertion_files(Setup& setup) {
+  for (InsertionSetup& i : setup.insertions) {
+    if (i.volume.shape == VolumeShape::file) {
+      const CsvTable table = read_csv(i.volume.file);
+      const auto x = checked(table, i.volume.file, "x_mm", false),
+                 y = checked(table, i.volume.file, "y_mm", false),
+                 z = checked(table, i.volume.file, "z_mm", false),
+                 R = checked(table, i.volume.file, "radius_mm", true);
+      i.placed.clear();
+      for (std::size_t r = 0; r < x.size(); ++r)
+        i.placed.push_back({1e-3 * Vec3{x[r], y[r], z[r]}, 1e-3 * R[r], i.velocity});
+    }
+    if (i.size.kind == SizeKind::table && i.volume.shape != VolumeShape::file) {
+      const CsvTable table = read_csv(i.size.file);
+      i.size.radii = checked(table, i.size.file, "radius_mm", true);
+      for (double& R : i.size.radii) R *= 1e-3;
+      i.size.shares = checked(table, i.size.file, "share", true);
+    }
+  }
+}
+
+}  // namespace abradem::io

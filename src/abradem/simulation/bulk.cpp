@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/simulation/bulk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "abradem/core/error.h"
+
+namespace abradem::simulation {
+
+namespace {
+
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr double kSkin = 0.2;     // of the mean radius
+constexpr double kFastest = 0.1;  // of the radius in one step: a faster one may pass through a wall
+
+bool outside(const DomainSetup& d, const Vec3& p) noexcept {
+  return !(p.x >= d.low.x && p.y >= d.low.y && p.z >= d.low.z && p.x <= d.high.x && p.y <= d.high.y &&
+           p.z <= d.high.z);
+}
+
+}  // namespace
+
+Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
+           const std::vector<material::PairProperties>& properties, const Particles& named)
+    : walls_(setup.walls.size()), domain_(setup.domain), names_(named.name) {
+  table_.materials = materials.size();
+  for (const material::PairProperties& p : properties) {
+    table_.pair.push_back(contact::PairConstants::of(p));
+    table_.rolling = table_.rolling || p.rolling_friction > 0.0;
+  }
+  for (std::size_t p = 0; p < named.size(); ++p) {
+    contact::SphereRow s;
+    s.set_position(named.position[p]);
+    s.radius = named.radius[p];
+    s.inverse_mass = 1.0 / named.mass[p];
+    s.material = named.material[p];
+    spheres_.row.push_back(s);
+    spheres_.id.push_back(next_id_++);
+  }
+  named_ = next_id_;
+  for (std::size_t k = 0; k < setup.insertions.size(); ++k) {
+    const InsertionSetup& insertion = setup.insertions[k];
+    const auto material = std::ranges::find(setup.materials, insertion.material, &MaterialSetup::name);
+    const auto m = static_cast<std::size_t>(material - setup.materials.begin());
+    constexpr std::uint64_t kStream = 1000;  // of the first insertion: far from those of the meshes
+    inserters_.emplace_back(insertion, static_cast<int>(m), materials[m].density, setup.run.seed,
+                            kStream + k);
+  }
+  take_in(0.0);
+}
+
+void Bulk::take_in(double time) {
+  for (Inserter& inserter : inserters_) {
+    if (!inserter.wants(time)) continue;
+    for (const contact::SphereRow& s : inserter.insert(time, spheres_)) {
+      spheres_.row.push_back(s);
+      spheres_.id.push_back(next_id_++);
+      worn_out_ = true;
+    }
+  }
+}
+
+void Bulk::take_out() {
+  if (!domain_) return;
+  for (std::size_t i = 0; i < spheres_.size(); ++i) {
+    const contact::SphereRow& s = spheres_.row[i];
+    if (spheres_.id[i] < named_ || !outside(*domain_, s.position())) continue;
+    if (domain_->outside == Outside::stop)
+      throw SimulationError(
+          fmt::format("particle {} has left the domain at ({:.6g}, {:.6g}, {:.6g}) m with {:.4g} m/s. "
+                      "Enlarge the [domain], "
+                      "close the walls, or set outside = \"remove\"",
+                      spheres_.id[i], s.x, s.y, s.z, norm(s.velocity())));
+    spheres_.id[i] = -1;
+    ++removed_;
+    removed_mass_ += 1.0 / s.inverse_mass;
+  }
+}
+
+void Bulk::find_named() {
+  place_of_named_.assign(at(named_), 0);
+  for (std::size_t i = 0; i < spheres_.size(); ++i)
+    if (spheres_.id[i] >= 0 && spheres_.id[i] < named_) place_of_named_[at(spheres_.id[i])] = i;
+}
+
+/// Copies of the named particles as they are now. What they moved besides the engine's own idea of it
+/// (guides, loads, a hand) counts as travelled.
+void Bulk::fetch_named(const Particles& named) {
+  double furthest = 0.0;
+  for (std::size_t p = 0; p < place_of_named_.size(); ++p) {
+    contact::SphereRow& s = spheres_.row[place_of_named_[p]];
+    furthest = std::max(furthest, norm(named.position[p] - s.position()));
+    s.set_position(named.position[p]);
+    s.set_velocity(named.velocity[p]);
+    s.set_spin(named.spin[p]);
+  }
+  travelled_ += furthest;
+}
+
+void Bulk::find_contacts(const Surroundings& around, const Particles& named, std::vector<double>& paper) {
+  take_in(around.time);
+  fetch_named(named);
+  const double by_walls = walls_.fastest_wall() * wall_time_;
+  worn_out_ = worn_out_ || around.time >= walls_.next_removal();
+  if (worn_out_ || travelled_ > 0.5 * skin_ || travelled_ + by_walls > skin_) {
+    take_out();
+    double sum = 0.0;
+    for (const contact::SphereRow& s : spheres_.row) sum += s.radius;
+    skin_ = spheres_.size() > 0 ? kSkin * sum / static_cast<double>(spheres_.size()) : 0.0;
+    list_.rebuild(spheres_, skin_);
+    walls_.rebuild(spheres_, around, skin_, named_, paper);
+    find_named();
+    travelled_ = wall_time_ = 0.0;
+    const bool first = worn_out_;
+    worn_out_ = false;
+    if (first) fetch_named(named);
+  }
+  walls_.find(spheres_, around, travelled_ + walls_.fastest_wall() * wall_time_);
+}
+
+void Bulk::compute_forces(const Surroundings& around, Particles& named) {
+  sound_ = contact::sphere_forces(spheres_, list_, table_, around.dt, load_);
+  for (std::size_t p = 0; p < place_of_named_.size(); ++p) {
+    contact::LoadRow& l = load_[place_of_named_[p]];
+    named.force[p] += l.force();
+    named.torque[p] += l.torque();
+    l = {};
+  }
+  sound_ = walls_.compute(spheres_, around, load_) && sound_;
+}
+
+void Bulk::integrate(const Surroundings& around) {
+  met_ = contact::advance_spheres(spheres_.row, load_, around.gravity, around.dt);
+  worst_stability_ = std::max(worst_stability_, met_.stability);
+  travelled_ += std::sqrt(met_.fastest2) * around.dt;
+  wall_time_ += around.dt;
+}
+
+void Bulk::check(const Surroundings& around, std::uint64_t step) const {
+  if (sound_ && met_.finite && met_.longest <= kFastest) return;
+  for (std::size_t i = 0; i < spheres_.size(); ++i) {
+    if (spheres_.id[i] < named_) continue;
+    const contact::SphereRow& s = spheres_.row[i];
+    if (!is_finite(s.position()) || !is_finite(s.velocity()))
+      fail(i, "its position or speed is no longer a number", around, step);
+    if (const double way = norm(s.velocity()) * around.dt; way > kFastest * s.radius)
+      fail(i, fmt::format("it moves {:.4g} mm in one step, more than a tenth of its radius", 1e3 * way),
+           around, step);
+  }
+  if (sound_) return;  // only a copy of a named one: it is looked at with its own kind
+  for (std::size_t k = 0; k < list_.pairs(); ++k) {
+    const contact::SphereRow &i = spheres_.row[at(list_.owner[k])], &j = spheres_.row[at(list_.partner[k])];
+    const double overlap = i.radius + j.radius - norm(i.position() - j.position());
+    // Positions are one step on, so what was a hair too deep may no longer be.
+    if (overlap > 0.95 * contact::kDeepest * i.radius * j.radius / (i.radius + j.radius))
+      fail(at(list_.owner[k]),
+           fmt::format("its overlap with {} is {:.4g} mm, more than a tenth of the radius",
+                       title(at(list_.partner[k])), 1e3 * overlap),
+           around, step);
+  }
+  for (const BulkWalls::NearMesh& m : walls_.meshes())
+    for (const SphereWall::Touch& t : m.contact->touches())
+      if (t.overlap > 0.5 * contact::kDeepest * spheres_.row[at(m.sphere)].radius)
+        fail(at(m.sphere),
+             fmt::format("its overlap with wall '{}' is {:.4g} mm, more than a tenth of its radius",
+                         around.walls[at(m.wall)].setup().name, 1e3 * t.overlap),
+             around, step);
+  fail(0, "it or another one overlaps a wall by more than a tenth of its radius", around, step);
+}
+
+std::string Bulk::title(std::size_t i) const {
+  const std::int32_t id = spheres_.id[i];
+  return id < named_ ? fmt::format("particle '{}'", names_[at(id)]) : fmt::format("particle {}", id);
+}
+
+void Bulk::fail(std::size_t i, const std::string& what, const Surroundings& around,
+                std::uint64_t step) const {
+  const contact::SphereRow& s = spheres_.row[i];
+  throw SimulationError(
+      fmt::format("{} at ({:.4g}, {:.4g}, {:.4g}) mm, step {}, {:.6g} s: {}. Shorten the time step, "
+                  "or check the "
+                  "stiffness, the speeds and the starting positions",
+                  title(i), 1e3 * s.x, 1e3 * s.y, 1e3 * s.z, step, around.time, what));
+}
+
+BulkState Bulk::state(const std::vector<material::PairProperties>& properties) const {
+  BulkState state;
+  for (const Inserter& inserter : inserters_) state.inserted += inserter.inserted();
+  state.removed = removed_;
+  state.removed_mass = removed_mass_;
+  for (std::size_t i = 0; i < spheres_.size(); ++i) {
+    if (spheres_.id[i] < named_) continue;
+    const contact::SphereRow& s = spheres_.row[i];
+    const double mass = 1.0 / s.inverse_mass, v2 = norm2(s.velocity());
+    ++state.present;
+    state.mass += mass;
+    state.kinetic_energy += 0.5 * mass * (v2 + 0.4 * s.radius * s.radius * norm2(s.spin()));
+    state.fastest = std::max(state.fastest, v2);
+  }
+  state.fastest = std::sqrt(state.fastest);
+  for (std::size_t k = 0; k < list_.pairs(); ++k) {
+    const contact::SphereRow &i = spheres_.row[at(list_.owner[k])], &j = spheres_.row[at(list_.partner[k])];
+    const double reach = i.radius + j.radius, overlap = reach - norm(i.position() - j.position());
+    if (overlap <= 0.0) continue;
+    ++state.pair_contacts;
+    const auto& pair = properties[static_cast<std::size_t>(i.material) * table_.materials +
+                                  static_cast<std::size_t>(j.material)];
+    state.elastic_energy += 0.4 * overlap * contact::hertz_force(pair, i.radius * j.radius / reach, overlap);
+  }
+  state.wall_contacts = walls_.contacts();
+  return state;
+}
+
+bool Bulk::restore(const Surroundings& around) {
+  if (spheres_.id.size() != spheres_.size()) return false;
+  for (std::size_t i = 0; i < spheres_.size(); ++i) {
+    const contact::SphereRow& s = spheres_.row[i];
+    const bool sound = is_finite(s.position()) && is_finite(s.velocity()) && is_finite(s.spin()) &&
+                       s.radius > 0.0 && s.inverse_mass > 0.0 && s.material >= 0.0 &&
+                       s.material < static_cast<double>(around.materials);
+    if (!sound || spheres_.id[i] < 0 || spheres_.id[i] >= next_id_) return false;
+  }
+  if (worn_out_) return walls_.meshes().empty();  // everything else will be made anew
+  find_named();
+  for (std::size_t p = 0; p < place_of_named_.size(); ++p)
+    if (spheres_.size() == 0 || at(spheres_.id[place_of_named_[p]]) != p) return false;
+  return list_.restore(spheres_.size()) && walls_.restore(spheres_, around);
+}
+
+void Bulk::add_to(core::StateHash& hash) const {
+  for (std::size_t i = 0; i < spheres_.size(); ++i) {
+    const contact::SphereRow& s = spheres_.row[i];
+    if (spheres_.id[i] < named_) continue;
+    hash.add(static_cast<std::uint64_t>(spheres_.id[i]));
+    hash.add(s.position());
+    hash.add(s.velocity());
+    hash.add(s.spin());
+  }
+  for (std::size_t k = 0; k < list_.pairs(); ++k)
+    if (list_.touching[k] != 0) hash.add(Vec3{list_.spring[k].x, list_.spring[k].y, list_.spring[k].z});
+  for (const contact::PlaneList& plane : walls_.planes())
+    for (const contact::SpringRow& s : plane.spring) hash.add(Vec3{s.x, s.y, s.z});
+  for (const BulkWalls::NearMesh& m : walls_.meshes()) m.contact->add_to(hash);
+}
+
+}  // namespace abradem::simulation

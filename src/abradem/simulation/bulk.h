@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "abradem/contact/sphere_forces.h"
+#include "abradem/core/hash.h"
+#include "abradem/simulation/bulk_walls.h"
+#include "abradem/simulation/insertion.h"
+#include "abradem/simulation/particles.h"
+
+namespace abradem::simulation {
+
+/// What became of the particles in numbers so far, and how they move now.
+struct BulkState {
+  std::uint64_t inserted = 0, removed = 0, present = 0;
+  double mass = 0.0, removed_mass = 0.0;  ///< [kg]
+  std::uint64_t pair_contacts = 0, wall_contacts = 0;
+  double kinetic_energy = 0.0;  ///< [J]
+  double elastic_energy = 0.0;  ///< normal, among the spheres [J]
+  double fastest = 0.0;         ///< [m/s]
+};
+
+/// Spheres among themselves: all contacts between spheres of a case, and everything about those that come in
+/// numbers. Named particles lead a double life here: `Particles` holds them, moves them and brings them to
+/// the walls; this engine sees copies of them (ids 0 … named - 1) and returns the forces of their contacts.
+///
+/// The methods are chapters of the simulation's step (docs/architecture.md#particles-in-numbers).
+class Bulk {
+ public:
+  /// @param materials densities are taken from them
+  Bulk(const Setup& setup, const std::vector<material::Material>& materials,
+       const std::vector<material::PairProperties>& properties, const Particles& named);
+
+  /// Takes in what is due for insertion and takes out what has left; makes the lists anew when they have worn
+  /// out; finds the contacts with the walls.
+  void find_contacts(const Surroundings& around, const Particles& named, std::vector<double>& paper);
+  /// Forces among all, and of the walls on those in numbers; adds their share to the named ones.
+  void compute_forces(const Surroundings& around, Particles& named);
+  void integrate(const Surroundings& around);
+  /// @throws SimulationError naming a particle when the state has left the range that the equations hold in
+  void check(const Surroundings& around, std::uint64_t step) const;
+
+  [[nodiscard]] BulkWalls& walls() noexcept { return walls_; }
+  [[nodiscard]] const BulkWalls& walls() const noexcept { return walls_; }
+  /// All spheres, in the order of the engine; ids below named() are the named ones.
+  [[nodiscard]] const contact::Spheres& spheres() const noexcept { return spheres_; }
+  [[nodiscard]] const contact::SphereList& list() const noexcept { return list_; }
+  [[nodiscard]] std::int32_t named() const noexcept { return named_; }
+  /// Forces of the last step's contacts, in the order of spheres(); those of named particles are handed over.
+  [[nodiscard]] const std::vector<contact::LoadRow>& loads() const noexcept { return load_; }
+  [[nodiscard]] const std::vector<Inserter>& inserters() const noexcept { return inserters_; }
+  /// Largest 2 g + W met. docs/theory/time-step.md
+  [[nodiscard]] double worst_stability() const noexcept { return worst_stability_; }
+  [[nodiscard]] BulkState state(const std::vector<material::PairProperties>& properties) const;
+  /// Adds everything that the next step depends on.
+  void add_to(core::StateHash& hash) const;
+
+  /// All that lasts from one step to the next, for core/archive.h; restore() follows a load.
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("spheres", self.spheres_)("list", self.list_)("walls", self.walls_);
+    for (auto& inserter : self.inserters_) archive("inserter", inserter);
+    archive("next_id", self.next_id_)("skin", self.skin_)("travelled", self.travelled_);
+    archive("wall_time", self.wall_time_)("worn_out", self.worn_out_);
+    archive("worst_stability", self.worst_stability_);
+    archive("removed", self.removed_)("removed_mass", self.removed_mass_);
+  }
+  /// @return whether what was loaded fits the case
+  [[nodiscard]] bool restore(const Surroundings& around);
+
+ private:
+  void take_in(double time);
+  void take_out();
+  [[nodiscard]] std::string title(std::size_t i) const;
+  void find_named();
+  void fetch_named(const Particles& named);
+  [[noreturn]] void fail(std::size_t i, const std::string& what, const Surroundings& around,
+                         std::uint64_t step) const;
+
+  contact::Spheres spheres_;
+  contact::SphereList list_;
+  contact::PairTable table_;
+  std::vector<contact::LoadRow> load_;
+  BulkWalls walls_;
+  std::vector<Inserter> inserters_;
+  std::optional<DomainSetup> domain_;
+  std::vector<std::size_t> place_of_named_;
+  std::vector<std::string> names_;
+  std::int32_t named_ = 0, next_id_ = 0;
+  double skin_ = 0.0, travelled_ = 0.0, wall_time_ = 0.0;  // since the lists were made
+  bool worn_out_ = true, sound_ = true;
+  contact::Advance met_;
+  double worst_stability_ = 0.0, removed_mass_ = 0.0;
+  std::uint64_t removed_ = 0;
+};
+
+}  // namespace abradem::simulation

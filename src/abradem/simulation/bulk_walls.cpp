@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abradem/simulation/bulk_walls.h"
+
+#include <algorithm>
+#include <numbers>
+#include <tuple>
+
+#include "abradem/core/parallel.h"
+
+namespace abradem::simulation {
+
+namespace {
+
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr std::size_t kWorthSharing = 256;  // spheres near meshes
+
+contact::MovingPlane plane_of(const Wall& wall, const geometry::Pose& pose) {
+  return {wall.setup().mesh.position, wall.setup().mesh.normal, pose};
+}
+
+SphereState state_of(const contact::SphereRow& s) noexcept {
+  return {s.position(), s.velocity(), s.spin(), s.radius, 1.0 / s.inverse_mass};
+}
+
+/// Largest speed of a wall, over all time, at any point as far from its axis as the furthest sphere.
+double largest_speed(const Wall& wall, const contact::Spheres& spheres, double skin) {
+  const MotionSetup& m = wall.setup().motion;
+  switch (m.kind) {
+    case MotionKind::none:
+      return 0.0;
+    case MotionKind::translation:
+      return norm(m.velocity);
+    case MotionKind::oscillation:
+      return 2.0 * std::numbers::pi * m.frequency * norm(m.amplitude);
+    case MotionKind::rotation:
+      break;
+  }
+  double arm2 = 0.0;
+  for (const contact::SphereRow& s : spheres.row)
+    arm2 = std::max(arm2, norm2(cross(m.axis, s.position() - m.center)));
+  if (!wall.is_plane()) {  // no point of the wall is further out than its furthest vertex
+    double mesh2 = 0.0;
+    for (const Vec3& v : wall.surface().mesh().vertices)
+      mesh2 = std::max(mesh2, norm2(cross(m.axis, v - m.center)));
+    arm2 = std::min(arm2, mesh2);
+  }
+  return std::abs(m.rate) * (std::sqrt(arm2) + skin);
+}
+
+}  // namespace
+
+void BulkWalls::find_constants(const Surroundings& around) {
+  constants_.resize(around.walls.size() * around.materials);
+  for (std::size_t w = 0; w < around.walls.size(); ++w)
+    for (std::size_t m = 0; m < around.materials; ++m)
+      constants_[w * around.materials + m] =
+          contact::PairConstants::of(around.pair(static_cast<int>(m), around.walls[w].material()));
+}
+
+bool BulkWalls::restore(const contact::Spheres& spheres, const Surroundings& around) {
+  find_constants(around);
+  for (std::size_t w = 0; w < planes_.size(); ++w)
+    if (!planes_[w].fits(spheres.size()) || (planes_[w].size() > 0 && !around.walls[w].is_plane()))
+      return false;
+  for (const NearMesh& m : meshes_) {
+    const bool there = m.sphere >= 0 && at(m.sphere) < spheres.size() && m.wall >= 0 &&
+                       at(m.wall) < around.walls.size() && m.id == spheres.id[at(m.sphere)];
+    if (!there || around.walls[at(m.wall)].is_plane() || !m.contact->restore(around.walls[at(m.wall)]))
+      return false;
+  }
+  return true;
+}
+
+void BulkWalls::rebuild(const contact::Spheres& spheres, const Surroundings& around, double skin,
+                        int first_id, std::vector<double>& paper) {
+  find_constants(around);
+  fastest_wall_ = 0.0;
+  next_removal_ = std::numeric_limits<double>::infinity();
+  for (std::size_t w = 0; w < around.walls.size(); ++w) {
+    const Wall& wall = around.walls[w];
+    if (!wall.present(around.time)) {
+      planes_[w] = {};
+      continue;
+    }
+    if (wall.setup().until) next_removal_ = std::min(next_removal_, *wall.setup().until);
+    fastest_wall_ = std::max(fastest_wall_, largest_speed(wall, spheres, skin));
+    odometer_[w] = wall.is_plane() ? 0.0 : wall.surface().odometer();
+    if (wall.is_plane()) planes_[w].rebuild(spheres, plane_of(wall, around.poses[w]), skin, first_id);
+  }
+  list_meshes(spheres, around, skin, first_id, paper);
+}
+
+void BulkWalls::list_meshes(const contact::Spheres& spheres, const Surroundings& around, double skin,
+                            int first_id, std::vector<double>& paper) {
+  double largest = 0.0;
+  for (const contact::SphereRow& s : spheres.row) largest = std::max(largest, s.radius);
+  constexpr std::size_t kBlock = contact::SphereList::kBlock;
+  const std::size_t blocks = (spheres.size() + kBlock - 1) / kBlock;
+  std::vector<std::vector<NearMesh>> found(blocks);
+  for (std::size_t w = 0; w < around.walls.size(); ++w)
+    if (!around.walls[w].is_plane() && largest > 0.0)
+      grids_[w].update(around.walls[w].view(), largest + skin);
+  core::parallel_blocks(blocks, [&](std::size_t b) {
+    for (std::size_t i = b * kBlock; i < std::min(spheres.size(), (b + 1) * kBlock); ++i) {
+      if (spheres.id[i] < first_id) continue;
+      const contact::SphereRow& s = spheres.row[i];
+      for (std::size_t w = 0; w < around.walls.size(); ++w) {
+        if (around.walls[w].is_plane() || !around.walls[w].present(around.time)) continue;
+        const Vec3 c = around.poses[w].to_body(s.position());
+        if (!grids_[w].may_be_near(c)) continue;
+        const auto distance = distance_within(around.walls[w].view(), c, s.radius + skin);
+        if (!distance) continue;
+        NearMesh near;
+        near.sphere = static_cast<std::int32_t>(i);
+        near.id = spheres.id[i];
+        near.wall = static_cast<std::int32_t>(w);
+        near.clear = *distance - s.radius;
+        found[b].push_back(std::move(near));
+      }
+    }
+  });
+
+  std::vector<NearMesh> before = std::move(meshes_);
+  meshes_.clear();
+  const auto key = [](const NearMesh& m) { return std::tuple(m.id, m.wall); };
+  std::ranges::sort(before, {}, key);
+  for (std::vector<NearMesh>& block : found)
+    for (NearMesh& near : block) {
+      const auto old = std::ranges::lower_bound(before, key(near), {}, key);
+      if (old != before.end() && key(*old) == key(near) && old->contact) {
+        near.contact = std::move(old->contact);
+        near.expected = old->expected;
+        near.load = old->load;
+        if (!near.contact->touches().empty()) near.clear = 0.0;
+      } else {
+        near.contact = std::make_unique<SphereWall>();
+      }
+      meshes_.push_back(std::move(near));
+    }
+  for (NearMesh& gone : before) {
+    if (!gone.contact) continue;
+    Wall& wall = around.walls[at(gone.wall)];
+    paper[at(gone.wall)] += gone.contact->take_centroid_volume(wall);
+    gone.contact->book_elements(wall);
+  }
+}
+
+void BulkWalls::find(const contact::Spheres& spheres, const Surroundings& around, double travelled) {
+  const auto active = [&](const NearMesh& m) {
+    return m.clear <= travelled + around.walls[at(m.wall)].surface().odometer() - odometer_[at(m.wall)];
+  };
+  for (NearMesh& m : meshes_) {
+    if (!active(m)) continue;
+    const contact::SphereRow& s = spheres.row[at(m.sphere)];
+    const geometry::Pose& pose = around.poses[at(m.wall)];
+    Wall& wall = around.walls[at(m.wall)];
+    m.expected = std::max({m.expected, norm(m.load.force()), norm(around.gravity) / s.inverse_mass});
+    const Vec3 v = pose.turn_back(s.velocity() - pose.velocity_at(s.position()));
+    m.contact->prepare(wall, pose.to_body(s.position()), v, s.radius,
+                       around.pair(static_cast<int>(s.material), wall.material()), m.expected, around.dt);
+  }
+  core::parallel_for(
+      meshes_.size(),
+      [&](std::size_t k) {
+        const NearMesh& m = meshes_[k];
+        if (!active(m)) return;
+        const contact::SphereRow& s = spheres.row[at(m.sphere)];
+        const Wall& wall = around.walls[at(m.wall)];
+        m.contact->find(wall, around.poses[at(m.wall)].to_body(s.position()), s.radius,
+                        around.pair(static_cast<int>(s.material), wall.material()));
+      },
+      kWorthSharing);
+}
+
+bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& around,
+                        std::vector<contact::LoadRow>& load) {
+  bool sound = true;
+  for (std::size_t w = 0; w < planes_.size(); ++w) {
+    if (planes_[w].size() == 0) continue;
+    const std::span constants(constants_.data() + w * around.materials, around.materials);
+    sound = contact::plane_forces(spheres, planes_[w], plane_of(around.walls[w], around.poses[w]), constants,
+                                  around.dt) &&
+            sound;
+    for (std::size_t k = 0; k < planes_[w].size(); ++k) load[at(planes_[w].sphere[k])] += planes_[w].load[k];
+  }
+  std::vector<std::uint8_t> deep(meshes_.size(), 0);
+  core::parallel_for(
+      meshes_.size(),
+      [&](std::size_t k) {
+        NearMesh& m = meshes_[k];
+        if (m.contact->touches().empty() && m.load.stiffening == 0.0) return;
+        const contact::SphereRow& s = spheres.row[at(m.sphere)];
+        const Wall& wall = around.walls[at(m.wall)];
+        const material::PairProperties& pair = around.pair(static_cast<int>(s.material), wall.material());
+        const SphereState sphere = state_of(s);
+        const ForceAndTorque f = m.contact->compute(wall, around.poses[at(m.wall)], sphere, pair, around.dt);
+        m.load = {f.force.x, f.force.y, f.force.z, 0.0, f.torque.x, f.torque.y, f.torque.z, 0.0};
+        for (const SphereWall::Touch& t : m.contact->touches()) {
+          const double S = contact::normal_stiffness(pair, t.a);
+          const double D = contact::damping_coefficient(pair, S, sphere.mass);
+          m.load.stiffening += (2.0 * D + S * around.dt) * around.dt;
+          deep[k] = deep[k] != 0 || t.overlap > 0.5 * contact::kDeepest * s.radius;
+        }
+      },
+      kWorthSharing);
+  for (const NearMesh& m : meshes_) load[at(m.sphere)] += m.load;
+  return sound && std::ranges::none_of(deep, [](std::uint8_t d) { return d != 0; });
+}
+
+Vec3 BulkWalls::force_on(std::size_t wall) const noexcept {
+  Vec3 sum;
+  for (const contact::LoadRow& l : planes_[wall].load) sum -= l.force();
+  for (const NearMesh& m : meshes_)
+    if (at(m.wall) == wall) sum -= m.load.force();
+  return sum;
+}
+
+std::size_t BulkWalls::contacts() const noexcept {
+  std::size_t count = 0;
+  for (const contact::PlaneList& plane : planes_)
+    count += static_cast<std::size_t>(std::ranges::count(plane.touching, 1));
+  for (const NearMesh& m : meshes_) count += m.contact->touches().size();
+  return count;
+}
+
+}  // namespace abradem::simulation

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a step wears, and the account of it. docs/architecture.md#accumulate_wear
+#include <algorithm>
+#include <cmath>
+
+#include "abradem/simulation/simulation.h"
+
+namespace abradem::simulation {
+
+double Simulation::slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept {
+  // Ours wears by the plastic slip. The paper's rules wear by |v_t| dt whether the contact sticks or slips
+  // (eq. 5): their springs begin anew on every element, so what they call slip would come short.
+  const bool by_speed = wall.deformation == DeformationRule::paper ||
+                        wall.contact == ContactRule::per_triangle ||
+                        setup_.run.method == Method::quasi_static;
+  return by_speed ? touch.force.v_t * dt_ : touch.force.slip;
+}
+
+void Simulation::accumulate_wear() {
+  for (std::size_t p = 0; p < particles_.size(); ++p)
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+      Wall& wall = walls_[w];
+      const double alpha_s = groove_coefficient(particles_.material[p], wall.material());
+      if (alpha_s != 0.0) {
+        const double volume = sphere_walls_[p * walls_.size() + w].deposit(
+            wall, alpha_s, particles_.radius[p], pair(particles_.material[p], wall.material()),
+            [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); });
+        if (ploughs())
+          plough(p, w, volume);
+        else
+          law_[w] += volume;
+      }
+      if (tips_[p]) wear_tip(p, w);
+    }
+  if (!bulk_) return;
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    if (walls_[w].is_plane()) law_[w] += plane_wear(w);
+  for (BulkWalls::NearMesh& m : bulk_->walls().meshes()) {
+    const contact::SphereRow& s = bulk_->spheres().row[static_cast<std::size_t>(m.sphere)];
+    const auto w = static_cast<std::size_t>(m.wall);
+    const auto material = static_cast<int>(s.material);
+    const double alpha_s = wear_coefficient(material, walls_[w].material());
+    if (alpha_s == 0.0 || m.contact->touches().empty()) continue;
+    law_[w] += m.contact->deposit(walls_[w], alpha_s, s.radius, pair(material, walls_[w].material()),
+                                  [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
+  }
+}
+
+/// What the law would wear off an analytic plane, which keeps its shape [m^3].
+double Simulation::plane_wear(std::size_t w) const {
+  const contact::PlaneList& plane = bulk_->walls().planes()[w];
+  double volume = 0.0;
+  for (std::size_t k = 0; k < plane.size(); ++k) {
+    const auto& s = bulk_->spheres().row[static_cast<std::size_t>(plane.sphere[k])];
+    const double alpha_s = wear_coefficient(static_cast<int>(s.material), walls_[w].material());
+    volume += wear::archard_volume(alpha_s, {std::max(plane.F_n[k], 0.0), plane.slip[k]});
+  }
+  return volume;
+}
+
+void Simulation::wear_tip(std::size_t p, std::size_t w) {
+  const double alpha_s = wear_coefficient(walls_[w].material(), particles_.material[p]);
+  if (alpha_s == 0.0) return;
+  tip_law_[p] += sphere_walls_[p * walls_.size() + w].wear_tip(
+      *tips_[p], walls_[w], alpha_s, pair(particles_.material[p], walls_[w].material()), output_due(),
+      [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
+}
+
+/// Of what leaves the groove the removed fraction is lost, and the rest is piled up beside the contact.
+void Simulation::plough(std::size_t p, std::size_t w, double groove_volume) {
+  // Piles may lie apart where many passes share them.
+  constexpr double kRevolutions = 24.0, kNearest = 0.5, kFurthest = 8.0;
+  const double removed = removed_fraction() * groove_volume, displaced = groove_volume - removed;
+  law_[w] += removed;
+  displaced_[w] += displaced;
+  Wall& wall = walls_[w];
+  if (wall.is_plane()) return;
+  const geometry::Pose& pose = poses_[w];
+  const Vec3& u = particles_.velocity[p];
+  const Vec3 sliding = u - pose.velocity_at(particles_.position[p]), v = pose.turn_back(sliding);
+  // The path over a wall that turns bends, by Coriolis' and the centrifugal acceleration.
+  const double speed2 = norm2(sliding);
+  const Vec3 turning =
+      speed2 > 0.0 ? pose.turn_back(cross(pose.spin, u + sliding)) * (-1.0 / speed2) : Vec3{};
+  const double n = period_ > 0.0 ? end_ / period_ : 0.0;
+  const wear::Ploughing ploughing{removed_fraction(), std::tan(setup_.ploughing->ridge_angle),
+                                  setup_.ploughing->ahead};
+  sphere_walls_[p * walls_.size() + w].plough(
+      wall, ploughing,
+      {displaced, v, turning, norm(v) * dt_, std::clamp(n / kRevolutions, kNearest, kFurthest), output_due()},
+      particles_.radius[p], pair(particles_.material[p], wall.material()));
+}
+
+/// Brings the surfaces' record of worn elements up to date; in the order of particles, so that the sums do
+/// not depend on threads.
+void Simulation::book_elements() {
+  for (std::size_t k = 0; k < sphere_walls_.size(); ++k)
+    if (Wall& wall = walls_[k % walls_.size()]; !wall.is_plane()) sphere_walls_[k].book_elements(wall);
+  if (!bulk_) return;
+  for (BulkWalls::NearMesh& m : bulk_->walls().meshes())
+    m.contact->book_elements(walls_[static_cast<std::size_t>(m.wall)]);
+}
+
+double Simulation::law_volume() const noexcept {
+  double sum = 0.0;
+  for (const double v : law_) sum += v;
+  return sum;
+}
+
+Ledger Simulation::ledger() {
+  Ledger ledger;
+  double conserving_law = 0.0, conserving_swept = 0.0;
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    const Wall& wall = walls_[w];
+    if (wall.is_plane()) continue;
+    for (std::size_t p = 0; p < particles_.size(); ++p)
+      if (wall.setup().deformation == DeformationRule::conserving)
+        paper_[w] += sphere_walls_[p * walls_.size() + w].take_centroid_volume(wall);
+    if (bulk_)
+      for (BulkWalls::NearMesh& m : bulk_->walls().meshes()) {
+        if (static_cast<std::size_t>(m.wall) != w) continue;
+        if (wall.setup().deformation == DeformationRule::conserving)
+          paper_[w] += m.contact->take_centroid_volume(wall);
+        ledger.deposited += m.contact->pending_volume();
+      }
+    const double swept = wall.surface().swept_volume();
+    double unpiled = 0.0;
+    ledger.law += law_[w];
+    ledger.deposited += wall.surface().deposited_volume();
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      ledger.deposited += sphere_walls_[p * walls_.size() + w].pending_volume();
+      unpiled += sphere_walls_[p * walls_.size() + w].unpiled_volume();
+    }
+    ledger.swept += swept;
+    ledger.paper += paper_[w];
+    ledger.displaced += displaced_[w];
+    ledger.piled += wall.surface().raised_volume();
+    ledger.unpiled += unpiled;
+    if (wall.setup().deformation == DeformationRule::conserving)
+      conserving_law += law_[w] + unpiled, conserving_swept += swept;
+  }
+  if (const double groove = ledger.law + ledger.displaced; groove > 0.0) {
+    ledger.residual = std::max(std::abs(ledger.deposited - ledger.unpiled - ledger.law),
+                               std::abs(conserving_swept - conserving_law)) /
+                      groove;
+    if (ploughs())
+      ledger.residual =
+          std::max(ledger.residual, std::abs(ledger.piled + ledger.unpiled - ledger.displaced) / groove);
+  }
+  if (ledger.law > 0.0) ledger.kappa = ledger.swept / ledger.law;
+  for (std::size_t p = 0; p < tips_.size(); ++p) {
+    if (!tips_[p]) continue;
+    double pending = 0.0;
+    for (std::size_t w = 0; w < walls_.size(); ++w)
+      pending += sphere_walls_[p * walls_.size() + w].tip_pending();
+    ledger.tip_law += tip_law_[p];
+    ledger.tip_deposited += tips_[p]->deposited_volume() + pending;
+    ledger.tip_removed += tips_[p]->removed_volume() + pending;
+  }
+  if (ledger.tip_law > 0.0)
+    ledger.tip_residual = std::max(std::abs(ledger.tip_deposited - ledger.tip_law),
+                                   std::abs(ledger.tip_removed - ledger.tip_law)) /
+                          ledger.tip_law;
+  return ledger;
+}
+
+}  // namespace abradem::simulation

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "abradem/simulation/simulation.h"
+
+/// Particles in numbers for the tests.
+namespace abradem::test {
+
+using namespace simulation;
+
+inline WallSetup plane(const std::string& name, const Vec3& point, const Vec3& normal) {
+  WallSetup wall;
+  wall.name = name;
+  wall.material = "grain";
+  wall.mesh.shape = MeshShape::plane;
+  wall.mesh.position = point;
+  wall.mesh.normal = normal;
+  return wall;
+}
+
+/// Grains of one material, in an open box [0, side] x [0, side] where side > 0.
+inline simulation::Setup grains(double restitution, double friction, double side) {
+  Setup setup;
+  setup.materials = {{"grain", 2500.0, 1e7, 0.25, {}}};
+  setup.contacts = {{"grain", "grain", restitution, friction, 0.0}};
+  if (side > 0.0)
+    setup.walls = {plane("left", {0, 0, 0}, {1, 0, 0}), plane("right", {side, 0, 0}, {-1, 0, 0}),
+                   plane("front", {0, 0, 0}, {0, 1, 0}), plane("back", {0, side, 0}, {0, -1, 0})};
+  setup.insertions.resize(1);
+  setup.insertions[0].name = "grains";
+  setup.insertions[0].material = "grain";
+  setup.output.every = {1.0, false};
+  setup.run.end = {1.0, false};
+  setup.run.time_step = {0.2, true};
+  return setup;
+}
+
+/// A jittered lattice, `across` by `across` on the ground, each with a random velocity.
+inline std::vector<PlacedSphere> lattice(std::size_t count, std::size_t across, double R, double pitch,
+                                         double speed) {
+  core::RandomStream random(5);
+  std::vector<PlacedSphere> spheres;
+  const double play = 0.45 * (pitch - 2.0 * R);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto place = [&](std::size_t k) {
+      return (static_cast<double>(k) + 0.5) * pitch + random.uniform(-play, play);
+    };
+    const auto any = [&] { return random.uniform(-speed, speed); };
+    const Vec3 p{place(i % across), place(i / across % across), place(i / across / across)};
+    spheres.push_back({p, R, {any(), any(), any()}});
+  }
+  return spheres;
+}
+
+/// Volume fraction of the spheres within a box, by points on a lattice.
+inline double fraction_within(const contact::Spheres& spheres, const Vec3& low, const Vec3& high,
+                              double pitch) {
+  const auto n = [&](double a, double b) { return static_cast<std::size_t>((b - a) / pitch); };
+  const std::size_t nx = n(low.x, high.x), ny = n(low.y, high.y), nz = n(low.z, high.z);
+  std::vector<char> filled(nx * ny * nz, 0);
+  for (const contact::SphereRow& s : spheres.row) {
+    const auto first = [&](double x, double l) {
+      return static_cast<std::ptrdiff_t>(std::ceil((x - s.radius - l) / pitch));
+    };
+    const auto last = [&](double x, double l) {
+      return static_cast<std::ptrdiff_t>(std::floor((x + s.radius - l) / pitch));
+    };
+    for (auto i = std::max<std::ptrdiff_t>(0, first(s.x, low.x));
+         i <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(nx) - 1, last(s.x, low.x)); ++i)
+      for (auto j = std::max<std::ptrdiff_t>(0, first(s.y, low.y));
+           j <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(ny) - 1, last(s.y, low.y)); ++j)
+        for (auto k = std::max<std::ptrdiff_t>(0, first(s.z, low.z));
+             k <= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(nz) - 1, last(s.z, low.z)); ++k) {
+          const Vec3 p =
+              low + pitch * Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+          if (norm2(p - s.position()) < s.radius * s.radius)
+            filled[(static_cast<std::size_t>(i) * ny + static_cast<std::size_t>(j)) * nz +
+                   static_cast<std::size_t>(k)] = 1;
+        }
+  }
+  std::size_t count = 0;
+  for (const char f : filled) count += f != 0;
+  return static_cast<double>(count) / static_cast<double>(filled.size());
+}
+
+}  // namespace abradem::test

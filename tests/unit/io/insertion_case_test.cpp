@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles in numbers in a case file.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "abradem/core/error.h"
+#include "abradem/io/case_file.h"
+#include "abradem/io/insertion_files.h"
+
+namespace abradem::io {
+namespace {
+
+constexpr const char* kHead = R"(schema = 1
+[material.glass]
+density = 2500
+shear_modulus = "0.1 GPa"
+poisson_ratio = 0.25
+[material.steel]
+density = 7900
+shear_modulus = "78 GPa"
+poisson_ratio = 0.3
+[contact."glass/steel"]
+restitution = 0.5
+static_friction = 0.4
+[wall.floor]
+material = "steel"
+mesh = { shape = "plane" }
+[run]
+end = "1 s"
+)";
+constexpr const char* kPair = R"([contact."glass/glass"]
+restitution = 0.5
+static_friction = 0.5
+)";
+constexpr const char* kFeed = R"([insertion.feed]
+material = "glass"
+number = 500
+mass_rate = "0.5 kg/s"
+size = { kind = "normal", mean = "3 mm", sd = "0.3 mm", low = "2 mm", high = "4 mm" }
+volume = { shape = "cylinder", base = [0, 0, "10 mm"], top = [0, 0, "60 mm"], radius = "40 mm" }
+[domain]
+low = [-1, -1, -1]
+high = [1, 1, 1]
+outside = "stop"
+)";
+
+simulation::Setup read(const std::string& text, const std::filesystem::path& folder = {}) {
+  return parse_case(text, "case.toml", folder, {}).setup;
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    static_cast<void>(read(text));
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(InsertionCase, IsReadInSiAndWrittenBack) {
+  const simulation::Setup setup = read(std::string(kHead) + kPair + kFeed);
+  ASSERT_EQ(setup.insertions.size(), 1u);
+  const simulation::InsertionSetup& feed = setup.insertions[0];
+  EXPECT_EQ(feed.name, "feed");
+  EXPECT_EQ(feed.number, 500u);
+  EXPECT_DOUBLE_EQ(*feed.mass_rate, 0.5);
+  EXPECT_EQ(feed.size.kind, simulation::SizeKind::normal);
+  EXPECT_DOUBLE_EQ(feed.size.sd, 0.3e-3);
+  EXPECT_EQ(feed.volume.shape, simulation::VolumeShape::cylinder);
+  EXPECT_DOUBLE_EQ(feed.volume.top.z, 0.06);
+  EXPECT_EQ(setup.domain->outside, simulation::Outside::stop);
+  EXPECT_EQ(read(resolved_case(setup)), setup);
+}
+
+TEST(InsertionCase, NamesTheMissingPair) {
+  EXPECT_NE(refusal(std::string(kHead) + kFeed).find("add [contact.\"glass/glass\"]"), std::string::npos);
+}
+
+TEST(InsertionCase, RefusesWhatCannotBe) {
+  const std::string head = std::string(kHead) + kPair;
+  EXPECT_NE(refusal(head).find("the case has no particles"), std::string::npos);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string feed = kFeed;
+    feed.replace(feed.find(from), from.size(), to);
+    return refusal(head + feed);
+  };
+  EXPECT_NE(with("number = 500", "").find("needs a number or a mass"), std::string::npos);
+  EXPECT_NE(with("number = 500", "number = 500\nmass = \"1 kg\"").find("both a number and a mass"),
+            std::string::npos);
+  EXPECT_NE(with("\"40 mm\"", "\"2 mm\"").find("too small for one sphere of 4 mm radius"), std::string::npos);
+  EXPECT_NE(with("mean = \"3 mm\"", "mean = \"5 mm\"").find("must lie between low and high"),
+            std::string::npos);
+  EXPECT_NE(with("high = [1, 1, 1]", "high = [1, -2, 1]").find("must be above that of low"),
+            std::string::npos);
+}
+
+TEST(InsertionCase, ReadsPlacesAndSizesFromFiles) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "abradem_insertion_case";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "places.csv") << "x_mm,y_mm,z_mm,radius_mm\n1,2,30,3\n-10,2,30,2.5\n";
+  std::ofstream(folder / "sizes.csv") << "radius_mm,share\n1,3\n2,1\n";
+  const std::string head = std::string(kHead) + kPair;
+  simulation::Setup setup = read(head + R"([insertion.placed]
+material = "glass"
+volume = { shape = "file", file = "places.csv" }
+velocity = [0, 0, -1]
+[insertion.drawn]
+material = "glass"
+number = 3
+size = { kind = "table", file = "sizes.csv" }
+volume = { low = [0, 0, 1], high = [1, 1, 2] }
+)",
+                                 folder);
+  read_insertion_files(setup);
+  ASSERT_EQ(setup.insertions[0].placed.size(), 2u);
+  EXPECT_DOUBLE_EQ(setup.insertions[0].placed[1].position.x, -0.01);
+  EXPECT_DOUBLE_EQ(setup.insertions[0].placed[1].radius, 2.5e-3);
+  EXPECT_DOUBLE_EQ(setup.insertions[0].placed[1].velocity.z, -1.0);
+  EXPECT_EQ(setup.insertions[1].size.shares, (std::vector<double>{3.0, 1.0}));
+  std::ofstream(folder / "places.csv") << "x_mm,y_mm,z_mm,radius_mm\n1,2,30,0\n";
+  EXPECT_THROW(read_insertion_files(setup), InputError);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace abradem::io

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run with particles in numbers that is saved and put back goes on to the same bits.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "abradem/core/error.h"
+#include "support/state.h"
+
+namespace abradem::simulation {
+namespace {
+
+using test::finish;
+using test::loaded;
+using test::saved;
+
+/// Named particles and particles in numbers that come in at a rate, roll over a shaking plate that wears,
+/// over a plane and over each other, and are lost over an edge.
+simulation::Setup feed_on_a_shaking_plate(ContactRule contact) {
+  Setup setup;
+  setup.materials = {{"grain", 2500.0, 1e7, 0.25, {}}, {"steel", 7900.0, 1e9, 0.3, {}}};
+  setup.contacts = {{"grain", "grain", 0.5, 0.5, 0.02}, {"grain", "steel", 0.5, 0.4, 0.01}};
+  setup.wear = {{.abrader = "grain", .worn = "steel", .wear_coefficient = 1e-10}};
+  WallSetup plate;
+  plate.name = "plate";
+  plate.material = "steel";
+  plate.mesh.shape = MeshShape::plate;
+  plate.mesh.length = plate.mesh.width = 16e-3;
+  plate.mesh.size = 2e-3;
+  plate.motion.kind = MotionKind::oscillation;
+  plate.motion.amplitude = {1e-3, 0.0, 0.2e-3};
+  plate.motion.frequency = 40.0;
+  plate.contact = contact;
+  plate.deform_every = 3;
+  WallSetup side;
+  side.name = "side";
+  side.material = "steel";
+  side.mesh.shape = MeshShape::plane;
+  side.mesh.position = {-9e-3, 0.0, 0.0};
+  side.mesh.normal = {1.0, 0.0, 0.0};
+  setup.walls = {plate, side};
+  ParticleSetup named;
+  named.name = "ball";
+  named.material = "grain";
+  named.radius = 1.5e-3;
+  named.position = {0.0, 0.0, 1.5e-3};
+  setup.particles = {named};
+  for (const char* name : {"first", "second"}) {
+    InsertionSetup i;
+    i.name = name;
+    i.material = "grain";
+    i.size.kind = SizeKind::uniform;
+    i.size.low = 0.6e-3;
+    i.size.high = 1.0e-3;
+    i.volume.low = {-8e-3, -8e-3, 0.3e-3};
+    i.volume.high = {8e-3, 8e-3, 6e-3};
+    i.velocity = {0.3, 0.0, -0.5};
+    setup.insertions.push_back(i);
+  }
+  setup.insertions[0].number = 120;
+  setup.insertions[1].mass = 1.0;
+  setup.insertions[1].mass_rate = 0.2;
+  setup.domain = DomainSetup{{-12e-3, -9e-3, -5e-3}, {8e-3, 9e-3, 20e-3}, Outside::remove};
+  setup.run.gravity = {1.0, 0.0, -9.81};
+  setup.run.end = {0.05, false};
+  setup.run.time_step = {0.2, true};
+  setup.output.every = {0.01, false};
+  return setup;
+}
+
+TEST(BulkState, GoesOnToTheSameBits) {
+  for (const ContactRule contact : {ContactRule::resolved, ContactRule::patch}) {
+    const simulation::Setup setup = feed_on_a_shaking_plate(contact);
+    test::expect_same_bits_from_anywhere(setup, 800);
+    Simulation run(setup);
+    finish(run, 800);
+    EXPECT_GT(run.bulk_state().removed, 0u);
+    EXPECT_GT(run.bulk_state().inserted, 130u);
+    EXPECT_GT(run.bulk_state().wall_contacts, 2u);
+    EXPECT_GT(run.bulk()->list().rebuilds(), 5u);
+  }
+}
+
+TEST(BulkState, GoesOnOnOtherThreads) {
+  const simulation::Setup setup = feed_on_a_shaking_plate(ContactRule::resolved);
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(1);
+  Simulation whole(setup);
+  finish(whole, 700);
+  const std::string middle = saved(whole);
+  finish(whole, 1400);
+  omp_set_num_threads(3);
+  Simulation run = loaded(setup, middle);
+  finish(run, 1400);
+  omp_set_num_threads(before);
+  EXPECT_TRUE(saved(run) == saved(whole));
+}
+
+TEST(BulkState, DamagedIsRefusedOrCanBeSteppedOn) {
+  const simulation::Setup setup = feed_on_a_shaking_plate(ContactRule::resolved);
+  Simulation run(setup);
+  finish(run, 600);
+  const std::string good = saved(run);
+  core::RandomStream random(4, 1);
+  for (int i = 0; i < 200; ++i) {
+    std::string bad = good;
+    bad[static_cast<std::size_t>(random.uniform() * static_cast<double>(bad.size()))] ^=
+        static_cast<char>(1 << (i % 8));
+    try {
+      Simulation fresh(setup);
+      core::ArchiveReader archive(bad);
+      fresh.load(archive);
+      fresh.step();
+    } catch (const Error&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace abradem::simulation

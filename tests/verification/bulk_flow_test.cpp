@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Beds, silos and hoppers. docs/verification/bulk.md
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "abradem/io/case_file.h"
+#include "support/grains.h"
+
+namespace abradem::test {
+namespace {
+
+TEST(Bulk, FrictionalGrainsPackLooser) {
+  // mu = 0.5: random loose packing, 0.58 to 0.60.
+  constexpr double R = 3e-3, side = 16 * 2.06 * R;
+  simulation::Setup setup = grains(0.3, 0.5, side);
+  setup.walls.push_back(plane("floor", {0, 0, 0}, {0, 0, 1}));
+  setup.run.gravity = {0, 0, -9.81};
+  setup.insertions[0].placed = lattice(4096, 16, R, 2.06 * R, 0.3);
+  for (PlacedSphere& s : setup.insertions[0].placed) s.position.z *= 1.5;
+  Simulation run(setup);
+  for (int k = 0; k < 8000; ++k) run.step();
+  const double wall = 7.0 * R;
+  const double packed =
+      fraction_within(run.bulk()->spheres(), {wall, wall, wall}, {side - wall, side - wall, 18 * R}, 0.1 * R);
+  EXPECT_GT(packed, 0.58);
+  EXPECT_LT(packed, 0.60);
+  RecordProperty("fraction", std::to_string(packed));
+}
+
+/// A square silo of rough walls, filled and then let down on its floor by some diameters, so that all walls
+/// carry as much as they can.
+TEST(Bulk, SiloWallsCarryWhatJanssenSays) {
+  constexpr double R = 3e-3, pitch = 2.1 * R, friction = 0.5;
+  constexpr std::size_t across = 10, layers = 60;
+  constexpr double side = across * pitch;
+  simulation::Setup setup = grains(0.3, 0.3, side);
+  setup.materials.push_back({"wall", 2500.0, 1e7, 0.25, {}});
+  setup.contacts.push_back({"grain", "wall", 0.3, friction, 0.0});
+  for (WallSetup& wall : setup.walls) wall.material = "wall";
+  setup.walls.push_back(plane("floor", {0, 0, 0}, {0, 0, 1}));
+  setup.walls[4].motion.kind = MotionKind::translation;
+  setup.walls[4].motion.velocity = {0, 0, -0.02};
+  setup.run.gravity = {0, 0, -9.81};
+  setup.insertions[0].placed = lattice(across * across * layers, across, R, pitch, 0.1);
+  Simulation run(setup);
+  while (run.time() < 0.6) run.step();
+
+  // Vertical stress over depth: what is above, less what the walls carry of it; a mean of several moments.
+  constexpr std::size_t slabs = 20;
+  std::array<double, slabs> stress{};
+  double top = 0.0;
+  std::vector<double> heights;
+  for (const contact::SphereRow& s : run.bulk()->spheres().row) heights.push_back(s.z);
+  std::ranges::nth_element(heights, heights.begin() + static_cast<std::ptrdiff_t>(heights.size() * 99 / 100));
+  top = heights[heights.size() * 99 / 100] + R;
+  const double bottom = run.walls()[4].pose_at(run.time()).shift.z;
+  const double slab = (top - bottom) / slabs;
+  constexpr int moments = 100;
+  for (int m = 0; m < moments; ++m) {
+    for (int k = 0; k < 10; ++k) run.step();
+    std::array<double, slabs> carried{};
+    const auto slab_of = [&](double z) {
+      return std::min<std::size_t>(slabs - 1, static_cast<std::size_t>(std::max(0.0, (top - z) / slab)));
+    };
+    const auto& spheres = run.bulk()->spheres();
+    for (const contact::SphereRow& s : spheres.row) carried[slab_of(s.z)] += 9.81 / s.inverse_mass;
+    for (std::size_t w = 0; w < 4; ++w) {
+      const contact::PlaneList& wall = run.bulk()->walls().planes()[w];
+      for (std::size_t k = 0; k < wall.size(); ++k)
+        carried[slab_of(spheres.row[static_cast<std::size_t>(wall.sphere[k])].z)] -= wall.load[k].fz;
+    }
+    double above = 0.0;
+    for (std::size_t k = 0; k < slabs; ++k) {
+      above += carried[k];
+      stress[k] += above / (side * side) / moments;
+    }
+  }
+  // Fit of sigma_inf and lambda: for each lambda the best sigma_inf is linear.
+  double best = 1e300, lambda = 0.0, saturation = 0.0;
+  for (double l = 0.2 * side; l < 6.0 * side; l *= 1.01) {
+    double fs = 0.0, ff = 0.0, error = 0.0;
+    const auto f = [&](std::size_t k) { return 1.0 - std::exp(-(static_cast<double>(k) + 1.0) * slab / l); };
+    for (std::size_t k = 0; k < slabs; ++k) fs += f(k) * stress[k], ff += f(k) * f(k);
+    for (std::size_t k = 0; k < slabs; ++k) error += std::pow(stress[k] - fs / ff * f(k), 2);
+    if (error < best) best = error, lambda = l, saturation = fs / ff;
+  }
+  const double residual = std::sqrt(best / slabs) / saturation;
+  const double bulk_density = saturation / 9.81 / lambda;  // Janssen: sigma_inf = rho g lambda
+  const double K = side / (4.0 * friction * lambda);
+  RecordProperty("residual", std::to_string(residual));
+  RecordProperty("lambda_over_side", std::to_string(lambda / side));
+  RecordProperty("K", std::to_string(K));
+  RecordProperty("density_ratio",
+                 std::to_string(bulk_density / (run.bulk_state().mass / (side * side * (top - bottom)))));
+  EXPECT_LT(residual, 0.05);
+  EXPECT_GT((top - bottom) / lambda, 2.5);  // deep enough to saturate
+  EXPECT_NEAR(bulk_density / (run.bulk_state().mass / (side * side * (top - bottom))), 1.0, 0.15);
+  EXPECT_GT(K, 0.3);  // lateral over vertical stress of granular beds
+  EXPECT_LT(K, 0.9);
+}
+
+/// The ready case, filled less high (the rate does not depend on it) and for a shorter time.
+TEST(Bulk, SiloWithASlitEmptiesAtThePublishedRate) {
+  constexpr double kPublished = 82.1e-3, kTheirSlice = 5.6e-3, kOurSlice = 8.96e-3;  // [kg/s], [m]
+  const std::vector<std::string> smaller{"insertion.fill.number=5000", "wall.gate.until='0.15 s'",
+                                         "run.end='0.35 s'"};
+  Simulation run(io::read_case(ABRADEM_SOURCE_DIR "/cases/hopper.toml", smaller));
+  // Slope by least squares, once the flow is steady and what leaves the slit has reached the domain's end.
+  double n = 0.0, t = 0.0, m = 0.0, tt = 0.0, tm = 0.0;
+  while (!run.finished()) {
+    for (int k = 0; k < 50 && !run.finished(); ++k) run.step();
+    if (run.time() < 0.22) continue;
+    const double time = run.time(), mass = run.bulk_state().removed_mass;
+    n += 1.0, t += time, m += mass, tt += time * time, tm += time * mass;
+  }
+  const double rate = (n * tm - t * m) / (n * tt - t * t);
+  RecordProperty("rate_g_per_s", std::to_string(1e3 * rate * kTheirSlice / kOurSlice));
+  EXPECT_NEAR(rate * kTheirSlice / kOurSlice, kPublished, 0.1 * kPublished);
+}
+
+}  // namespace
+}  // namespace abradem::test

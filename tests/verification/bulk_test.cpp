@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles in numbers. docs/verification/bulk.md
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "support/grains.h"
+
+namespace abradem::test {
+namespace {
+
+using namespace simulation;
+
+TEST(Bulk, ClosedSystemKeepsMomentumAndEnergy) {
+  // A gas of elastic grains without friction, of two sizes, in empty space.
+  simulation::Setup setup = grains(1.0, 0.0, 0.0);
+  setup.insertions[0].placed = lattice(1000, 10, 3e-3, 6.15e-3, 0.3);
+  for (std::size_t k = 0; k < 1000; k += 3) setup.insertions[0].placed[k].radius = 2e-3;
+  Simulation run(setup);
+  const auto momentum = [&] {
+    Vec3 sum;
+    for (const contact::SphereRow& s : run.bulk()->spheres().row) sum += s.velocity() / s.inverse_mass;
+    return sum;
+  };
+  double scale = 0.0;
+  for (const contact::SphereRow& s : run.bulk()->spheres().row) scale += norm(s.velocity()) / s.inverse_mass;
+  const Vec3 p = momentum();
+  const double energy = run.kinetic_energy();
+  std::uint64_t most = 0;
+  for (int k = 0; k < 600; ++k) {
+    run.step();
+    if (k % 20 == 0) most = std::max(most, run.bulk_state().pair_contacts);
+  }
+  const BulkState end = run.bulk_state();
+  EXPECT_GT(most, 100u);                           // they do meet
+  EXPECT_LT(norm(momentum() - p) / scale, 1e-13);  // action is reaction
+  const double error = std::abs(end.kinetic_energy + end.elastic_energy - energy) / energy;
+  EXPECT_LT(error, 2e-3);  // second order in the step, of which an impact takes some tens
+  RecordProperty("energy_error", std::to_string(error));
+}
+
+TEST(Bulk, FrictionAndDampingOnlyTakeEnergy) {
+  simulation::Setup setup = grains(0.5, 0.5, 0.0);
+  setup.contacts[0].rolling_friction = 0.02;
+  setup.insertions[0].placed = lattice(1000, 10, 3e-3, 6.3e-3, 0.3);
+  Simulation run(setup);
+  double before = run.kinetic_energy();
+  for (int k = 0; k < 15; ++k) {
+    for (int m = 0; m < 40; ++m) run.step();
+    const BulkState s = run.bulk_state();
+    EXPECT_LT(s.kinetic_energy + s.elastic_energy, before * 1.001);
+    before = s.kinetic_energy + s.elastic_energy;
+  }
+  EXPECT_LT(before, 0.6 * Simulation(setup).kinetic_energy());
+}
+
+TEST(Bulk, FrictionlessGrainsPackAtRandomCloseDensity) {
+  constexpr double R = 3e-3, side = 16 * 2.06 * R;
+  simulation::Setup setup = grains(0.3, 0.0, side);
+  setup.walls.push_back(plane("floor", {0, 0, 0}, {0, 0, 1}));
+  setup.run.gravity = {0, 0, -9.81};
+  setup.insertions[0].placed = lattice(4096, 16, R, 2.06 * R, 0.3);
+  Simulation run(setup);
+  for (int k = 0; k < 8000; ++k) run.step();
+  const BulkState s = run.bulk_state();
+  // Walls put their neighbours into layers: within seven radii of them the fraction goes up and down.
+  const double wall = 7.0 * R;
+  const double packed =
+      fraction_within(run.bulk()->spheres(), {wall, wall, wall}, {side - wall, side - wall, 18 * R}, 0.1 * R);
+  EXPECT_GT(packed, 0.635);
+  EXPECT_LT(packed, 0.645);
+  RecordProperty("fraction", std::to_string(packed));
+  RecordProperty("contacts_per_grain", std::to_string(2.0 * static_cast<double>(s.pair_contacts) / 4096.0));
+  // The floor and nothing else carries the weight.
+  const double weight = s.mass * 9.81;
+  double sum = 0.0;
+  for (int k = 0; k < 200; ++k) run.step(), sum -= run.bulk_force_on_wall(4).z;
+  EXPECT_NEAR(sum / 200.0 / weight, 1.0, 0.01);
+}
+
+/// Some thousand grains on a plate that shakes, wears and changes its shape, fed in number and at a rate.
+simulation::Setup shaken_plate() {
+  simulation::Setup setup = grains(0.4, 0.4, 0.0);
+  for (WallSetup& wall : setup.walls) wall.material = "steel";
+  setup.materials.push_back({"steel", 7900.0, 78e9, 0.3, {}});
+  setup.contacts.push_back({"grain", "steel", 0.5, 0.4, 0.01});
+  setup.wear = {{"grain", "steel", 1e-9}};
+  WallSetup plate;
+  plate.name = "plate";
+  plate.material = "steel";
+  plate.mesh.shape = MeshShape::plate;
+  plate.mesh.length = plate.mesh.width = 0.3;
+  plate.mesh.size = 4e-3;
+  plate.motion.kind = MotionKind::oscillation;
+  plate.motion.amplitude = {4e-3, 1e-3, 0.5e-3};
+  plate.motion.frequency = 40.0;
+  plate.contact = ContactRule::resolved;
+  plate.deformation = DeformationRule::conserving;
+  setup.walls.push_back(plate);
+  setup.run.gravity = {0, 0, -9.81};
+  setup.insertions[0].placed = lattice(3000, 32, 3e-3, 6.03e-3, 0.2);
+  for (PlacedSphere& s : setup.insertions[0].placed) s.position -= Vec3{0.1, 0.1, 0.0};
+  InsertionSetup feed;
+  feed.name = "feed";
+  feed.material = "grain";
+  feed.size.kind = SizeKind::lognormal;
+  feed.size.mean = 3e-3, feed.size.sd = 0.3e-3, feed.size.low = 2e-3, feed.size.high = 4e-3;
+  feed.volume.low = {-0.1, -0.1, 0.03};
+  feed.volume.high = {0.1, 0.1, 0.06};
+  feed.mass = 0.1;
+  feed.mass_rate = 3.0;
+  feed.velocity = {0, 0, -1.0};
+  setup.insertions.push_back(feed);
+  setup.domain = DomainSetup{{-0.14, -0.14, -0.05}, {0.14, 0.14, 0.2}, Outside::remove};
+  setup.run.end = {0.024, false};
+  setup.output.every = {0.012, false};
+  return setup;
+}
+
+TEST(Bulk, WearOnAMovingDeformingWallIsAllAccountedForOnAnyNumberOfThreads) {
+  const int before = omp_get_max_threads();
+  std::uint64_t hash = 0;
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    Simulation run(shaken_plate());
+    while (!run.finished()) run.advance();
+    const Ledger ledger = run.ledger();
+    const BulkState s = run.bulk_state();
+    EXPECT_GT(s.inserted, 3050u);
+    EXPECT_EQ(s.present + s.removed, s.inserted);
+    EXPECT_GT(
+        std::ranges::count_if(run.walls()[0].surface().element_volume(), [](double v) { return v > 0.0; }),
+        500);
+    EXPECT_GT(ledger.law, 0.0);
+    EXPECT_LT(ledger.residual, 1e-9);
+    RecordProperty("residual", std::to_string(1e12 * ledger.residual) + "e-12");
+    if (hash == 0) hash = run.state_hash();
+    EXPECT_EQ(run.state_hash(), hash) << threads << " threads";
+  }
+  omp_set_num_threads(before);
+}
+
+TEST(Bulk, WhatLiesOnAGateFallsFromTheMomentItIsTakenAway) {
+  for (const bool mesh : {false, true}) {
+    simulation::Setup setup = grains(0.3, 0.3, 0.0);
+    setup.walls = {plane("gate", {0, 0, 0}, {0, 0, 1})};
+    if (mesh) {
+      setup.walls[0].mesh.shape = MeshShape::plate;
+      setup.walls[0].mesh.length = setup.walls[0].mesh.width = 0.1;
+      setup.walls[0].mesh.size = 0.02;
+      setup.walls[0].contact = ContactRule::resolved;
+    }
+    setup.walls[0].until = 0.03;
+    setup.run.gravity = {0, 0, -9.81};
+    setup.insertions[0].placed = {{{0, 0, 3e-3}, 3e-3, {}}};
+    ParticleSetup named;
+    named.name = "named";
+    named.material = "grain";
+    named.radius = 3e-3;
+    named.position = {0.02, 0, 3e-3};
+    setup.particles = {named};
+    Simulation run(setup);
+    const auto speeds = [&] {
+      const auto& spheres = run.bulk()->spheres();
+      const auto in_numbers = static_cast<std::size_t>(std::ranges::find(spheres.id, 1) - spheres.id.begin());
+      return std::array{spheres.row[in_numbers].vz, run.particles().velocity[0].z};
+    };
+    while (run.time() < 0.03) run.step();
+    for (const double v : speeds()) EXPECT_LT(std::abs(v), 2e-3);
+    const auto rest = speeds();
+    while (run.time() < 0.06) run.step();
+    // The first step without the gate is the one that begins at 0.03 s or just after.
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_NEAR(speeds()[k] - rest[k], -9.81 * 0.03, 9.81 * 2.0 * run.time_step());
+    EXPECT_EQ(norm(run.bulk_force_on_wall(0)), 0.0);
+  }
+}
+
+TEST(Bulk, GrainOnAMeshMovesAsOnAPlane) {
+  // The same grain thrown at an analytic plane and at a coarse mesh, through the engine.
+  const auto thrown = [](bool mesh) {
+    simulation::Setup setup = grains(0.5, 0.3, 0.0);
+    setup.walls = {plane("floor", {0, 0, 0}, {0, 0, 1})};
+    if (mesh) {
+      setup.walls[0].mesh.shape = MeshShape::plate;
+      setup.walls[0].mesh.length = setup.walls[0].mesh.width = 0.1;
+      setup.walls[0].mesh.size = 0.02;
+      setup.walls[0].contact = ContactRule::resolved;
+    }
+    setup.insertions[0].placed = {{{1e-3, 2e-3, 3.01e-3}, 3e-3, {0.4, -0.2, -0.5}}};
+    Simulation run(setup);
+    for (int k = 0; k < 400; ++k) run.step();
+    return run.bulk()->spheres().row[0];
+  };
+  const contact::SphereRow a = thrown(false), b = thrown(true);
+  EXPECT_GT(a.vz, 0.2);
+  EXPECT_LT(norm(a.velocity() - b.velocity()), 1e-10 * norm(a.velocity()));
+  EXPECT_LT(norm(a.spin() - b.spin()), 1e-10 * norm(a.spin()));
+}
+
+}  // namespace
+}  // namespace abradem::test
