@@ -77,16 +77,20 @@ ABRADEM_DISPATCH void measure_nodes(MeshCandidates& candidates, std::vector<doub
   using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
   const std::size_t nodes = candidates.x.size();
   scratch.assign(4 * nodes, 0.0);
-  auto* around = reinterpret_cast<Four*>(scratch.data());
   for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
     const Four third = Four{candidates.area[t], candidates.ax[t], candidates.ay[t], candidates.az[t]} / 3.0;
-    around[candidates.v0[t]] += third;
-    around[candidates.v1[t]] += third;
-    around[candidates.v2[t]] += third;
+    for (const std::int32_t v : {candidates.v0[t], candidates.v1[t], candidates.v2[t]}) {
+      Four sum;  // copied: clang takes a pointer to four for an aligned one
+      double* around = scratch.data() + 4 * static_cast<std::size_t>(v);
+      __builtin_memcpy(&sum, around, sizeof sum);
+      sum += third;
+      __builtin_memcpy(around, &sum, sizeof sum);
+    }
   }
   for (std::size_t i = 0; i < nodes; ++i) {
-    candidates.node_area[i] = around[i][0];
-    candidates.bx[i] = around[i][1], candidates.by[i] = around[i][2], candidates.bz[i] = around[i][3];
+    const double* around = scratch.data() + 4 * i;
+    candidates.node_area[i] = around[0];
+    candidates.bx[i] = around[1], candidates.by[i] = around[2], candidates.bz[i] = around[3];
   }
 }
 
@@ -108,14 +112,17 @@ ABRADEM_DISPATCH double centroid_motion(const MeshCandidates& candidates, std::s
                                         std::vector<double>& scratch) {
   // A node's four numbers stand together, so that a corner is one addition.
   using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
-  const auto* node = reinterpret_cast<const Four*>(motion.data());
   const std::size_t count = candidates.padded_triangle_count();
   if (scratch.size() < 2 * count) scratch.resize(2 * count);
   const double* __restrict area = candidates.area.data();
   double* __restrict swept = scratch.data();
   double* __restrict inside = scratch.data() + count;
   for (std::size_t t = 0; t < count; ++t) {
-    const Four sum = node[candidates.v0[t]] + node[candidates.v1[t]] + node[candidates.v2[t]];
+    Four at0, at1, at2;  // copied: clang takes a pointer to four for an aligned one
+    __builtin_memcpy(&at0, motion.data() + candidates.v0[t], sizeof at0);
+    __builtin_memcpy(&at1, motion.data() + candidates.v1[t], sizeof at1);
+    __builtin_memcpy(&at2, motion.data() + candidates.v2[t], sizeof at2);
+    const Four sum = at0 + at1 + at2;
     const Four square = sum * sum;
     swept[t] = (square[0] + square[1]) + square[2];
     inside[t] = sum[3];

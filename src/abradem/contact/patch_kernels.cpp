@@ -231,13 +231,18 @@ ABRADEM_DISPATCH std::array<double, 4> sums(std::size_t padded_count, const Mesh
   const double* __restrict ay = candidates.ay.data();
   const double* __restrict az = candidates.az.data();
   core::Lanes sx{}, sy{}, sz{}, sm{};
-  const auto lanes = [](const double* p) { return reinterpret_cast<const core::Lanes*>(p); };
   for (std::size_t t = 0; t < padded_count; t += kLanes) {
-    const core::Lanes gt = *lanes(g + t);
-    sx += gt * *lanes(ax + t);
-    sy += gt * *lanes(ay + t);
-    sz += gt * *lanes(az + t);
-    sm += *lanes(m + t) * *lanes(height + t);
+    core::Lanes gt, x, y, z, mt, ht;
+    core::load_lanes(gt, g + t);
+    core::load_lanes(x, ax + t);
+    core::load_lanes(y, ay + t);
+    core::load_lanes(z, az + t);
+    core::load_lanes(mt, m + t);
+    core::load_lanes(ht, height + t);
+    sx += gt * x;
+    sy += gt * y;
+    sz += gt * z;
+    sm += mt * ht;
   }
   const std::array<double, 4> total{ABRADEM_SUM_LANES(sx), ABRADEM_SUM_LANES(sy), ABRADEM_SUM_LANES(sz),
                                     ABRADEM_SUM_LANES(sm)};

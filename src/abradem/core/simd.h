@@ -21,6 +21,10 @@ using Lanes = double __attribute__((vector_size(64), aligned(8), may_alias));
 /// What such a loop calls must become part of it.
 #define ABRADEM_INLINE inline __attribute__((always_inline))
 
+/// Eight numbers from any place. Copied: clang takes a pointer to lanes for one that is aligned to all of
+/// them.
+ABRADEM_INLINE void load_lanes(Lanes& to, const double* from) { __builtin_memcpy(&to, from, sizeof to); }
+
 /// Sum of an array padded to eight lanes; call it from such a loop's function.
 ABRADEM_INLINE double sum_lanes(const double* values, std::size_t padded_count) {
   // Halves of the eight lanes: the widest that all machines with vectors worth the name keep in registers.

@@ -82,12 +82,14 @@ ABRADEM_INLINE Moments weigh(std::size_t padded_count, const double* __restrict 
                              const double* __restrict b2, double* __restrict w, const Weight weight) {
   for (std::size_t i = 0; i < padded_count; ++i) w[i] = share[i] * weight(e[i]);
   core::Lanes all{}, with1{}, with2{};
-  const auto lanes = [](const double* p) { return reinterpret_cast<const core::Lanes*>(p); };
   for (std::size_t i = 0; i < padded_count; i += MeshCandidates::kLanes) {
-    const core::Lanes wi = *lanes(w + i);
+    core::Lanes wi, at1, at2;
+    core::load_lanes(wi, w + i);
+    core::load_lanes(at1, b1 + i);
+    core::load_lanes(at2, b2 + i);
     all += wi;
-    with1 += wi * *lanes(b1 + i);
-    with2 += wi * *lanes(b2 + i);
+    with1 += wi * at1;
+    with2 += wi * at2;
   }
   return {ABRADEM_SUM_LANES(all), ABRADEM_SUM_LANES(with1), ABRADEM_SUM_LANES(with2)};
 }
