@@ -258,6 +258,7 @@ Charts.start(async () => {
   }
   surfaceFigure(data, facts, arrays);
   volumeFigure(data, facts);
+  if (!document.getElementById('h-groove')) return;  // particles in numbers make no groove
   profileFigure(data, facts);
   spreadFigure('fig-depth-spread', data, { column: 'depth_mm', factor: 1000, unit: 'µm', noun: 'depth', test: 'depth_p_chi2', color: '--s1' });
   spreadFigure('fig-width-spread', data, { column: 'width_mm', factor: 1, unit: 'mm', noun: 'width', test: 'width_p_chi2', color: '--s1' });

@@ -5,8 +5,10 @@
 
 /// The pages' sources (folder report/), embedded when the library is built (cmake/embed_report.cmake).
 namespace abradem::report {
-[[nodiscard]] std::string_view page_shell() noexcept;          ///< HTML of every page, with {{name}} places
-[[nodiscard]] std::string_view run_body() noexcept;            ///< what the shell holds in a run's report
+[[nodiscard]] std::string_view page_shell() noexcept;  ///< HTML of every page, with {{name}} places
+[[nodiscard]] std::string_view run_body() noexcept;    ///< what the shell holds in a run's report
+[[nodiscard]] std::string_view
+groove_figures() noexcept;  ///< its sections on the groove and the contact of a guided body
 [[nodiscard]] std::string_view page_style() noexcept;          ///< CSS of every page
 [[nodiscard]] std::string_view chart_tools_script() noexcept;  ///< what every page's figures are drawn with
 [[nodiscard]] std::string_view run_script() noexcept;          ///< the figures of a run's report

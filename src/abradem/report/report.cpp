@@ -12,6 +12,7 @@
 #include "abradem/io/atomic_file.h"
 #include "abradem/report/page_parts.h"
 #include "abradem/report/page_source.h"
+#include "abradem/report/particles_section.h"
 #include "abradem/report/pin_and_ridges_section.h"
 #include "abradem/report/sections.h"
 #include "abradem/report/statistics_section.h"
@@ -129,6 +130,9 @@ double track_radius_mm(const RunFolder& run) {
 /// The sections that are made as those of other pages are.
 std::vector<PageSection> numbered_sections(const RunFolder& run) {
   std::vector<PageSection> sections;
+  if (std::optional<PageSection> particles = particles_section(run))
+    sections.push_back(std::move(*particles));
+  if (!run.has_groove()) return sections;
   if (std::optional<PageSection> pin = pin_and_ridges_section(run)) sections.push_back(std::move(*pin));
   GrooveSeries series = groove_series(run.contours);
   series.counted = run.manifest.counted;
@@ -144,15 +148,17 @@ std::vector<PageSection> numbered_sections(const RunFolder& run) {
   return sections;
 }
 
-constexpr int kFigures = 10;  ///< of run.html
+constexpr int kFigures = 3, kGrooveFigures = 7;  ///< of run.html, of groove.html
 
 std::string page_of(const RunFolder& run, const std::vector<PageSection>& sections) {
-  const SectionParts numbers = section_parts(sections, kFigures, 0);
+  const bool groove = run.has_groove();
+  const SectionParts numbers = section_parts(sections, kFigures + (groove ? kGrooveFigures : 0), 0);
   const std::string script = std::string(run_script()) + std::string(figures_script());
   return shell({.kicker = "Abradem wear report",
                 .title = page_title(run),
                 .lead = verdict(run),
                 .body = fill(run_body(), {{"cards", verdict_cards(run)},
+                                          {"groove", std::string(groove ? groove_figures() : "")},
                                           {"numbered", numbers.html},
                                           {"ledger", ledger_table(run)},
                                           {"limits", limits_and_warnings(run)},

@@ -34,6 +34,11 @@ constexpr std::array kTip = {"revolution"sv, "particle"sv,      "law_volume_mm3"
 constexpr std::array kTipProfile = {"particle"sv, "distance_mm"sv, "sphere_um"sv, "recession_along_um"sv,
                                     "recession_across_um"sv};
 
+constexpr std::array kParticles = {"time_s"sv,           "particles"sv,      "mass_kg"sv,
+                                   "inserted"sv,         "removed"sv,        "removed_mass_kg"sv,
+                                   "contacts"sv,         "wall_contacts"sv,  "kinetic_energy_J"sv,
+                                   "elastic_energy_J"sv, "fastest_m_per_s"sv};
+
 /// A table that only some runs write.
 std::optional<Table> read_if_there(const std::filesystem::path& file,
                                    std::span<const std::string_view> required) {
@@ -118,6 +123,7 @@ RunFolder read_run_folder(const std::filesystem::path& folder) {
   run.ridges = read_if_there(tables / "ridges.csv", kRidges);
   run.tip = read_if_there(tables / "tip.csv", kTip);
   run.tip_profile = read_if_there(tables / "tip_profile.csv", kTipProfile);
+  run.particles = read_if_there(tables / "particles.csv", kParticles);
   read_surface(run);
   return run;
 }

@@ -18,8 +18,12 @@ struct RunFolder {
   std::string resolved_case;  ///< case.resolved.toml, as it stands
   Table revolutions, contours, profiles, force;
   std::optional<Table> ridges, tip, tip_profile;  ///< of runs that plough, or wear their pins
+  std::optional<Table> particles;                 ///< of runs with particles in numbers
   std::optional<WornSurface> surface;
   std::string surface_note;  ///< why there is no surface, when there is none
+
+  /// Is there a guided body's groove to show? Particles in numbers make none.
+  [[nodiscard]] bool has_groove() const noexcept { return !particles || force.rows() > 0; }
 };
 
 /// Reads run.json, case.resolved.toml, the tables and, from series.pvd, the first and the last frame of

@@ -13,7 +13,7 @@ namespace {
 
 /// The state after the last revolution; NaN where no revolution was completed.
 struct LastRow {
-  double revolution, volume_mm3, depth_um, depth_sd_um, width_mm, width_sd_mm;
+  double revolution, time_s, volume_mm3, depth_um, depth_sd_um, width_mm, width_sd_mm;
 };
 
 LastRow last_row(const RunFolder& run) {
@@ -22,13 +22,20 @@ LastRow last_row(const RunFolder& run) {
     return table.rows() > 0 ? table[name].back() : std::numeric_limits<double>::quiet_NaN();
   };
   const double swept = last("swept_volume_mm3");
-  return {last("revolution"),          std::isfinite(swept) ? swept : run.manifest.ledger.swept_volume_mm3,
-          1e3 * last("depth_mean_mm"), 1e3 * last("depth_sd_mm"),
-          last("width_mean_mm"),       last("width_sd_mm")};
+  return {last("revolution"),
+          last("time_s"),
+          std::isfinite(swept) ? swept : run.manifest.ledger.swept_volume_mm3,
+          1e3 * last("depth_mean_mm"),
+          1e3 * last("depth_sd_mm"),
+          last("width_mean_mm"),
+          last("width_sd_mm")};
 }
 
-std::string revolutions_text(double count) {
-  return fmt::format("{:.6g} {}", count, count == 1.0 ? "revolution" : "revolutions");
+/// "12 revolutions", "3 cycles"; where nothing repeats itself, the time.
+std::string duration(const RunFolder& run, const LastRow& row) {
+  const std::string& counted = run.manifest.counted;
+  if (counted == "output") return readable(row.time_s) + " s";
+  return fmt::format("{:.6g} {}{}", row.revolution, counted, row.revolution == 1.0 ? "" : "s");
 }
 
 enum class Mark { none, good, bad };
@@ -95,9 +102,9 @@ Card status_card(const RunFolder& run, const LastRow& row) {
   Card card{"Status", m.status, "", "", m.status == "completed" ? Mark::good : Mark::bad, ""};
   card.mark_text = m.status == "running" ? "not ended" : fmt::format("exit code {}", m.exit_code);
   card.value.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(card.value.front())));
-  card.note = fmt::format("{}{} steps in {} s",
-                          std::isfinite(row.revolution) ? revolutions_text(row.revolution) + ", " : "",
-                          readable_count(m.steps), readable(m.wall_seconds, 3));
+  card.note =
+      fmt::format("{}{} steps in {} s", std::isfinite(row.revolution) ? duration(run, row) + ", " : "",
+                  readable_count(m.steps), readable(m.wall_seconds, 3));
   return card;
 }
 
@@ -130,12 +137,11 @@ std::string verdict(const RunFolder& run) {
                                                          : "was interrupted");
   }
   if (std::isfinite(row.revolution)) {
-    out += fmt::format("After {} the wall has lost {} mm³", revolutions_text(row.revolution),
-                       readable(row.volume_mm3));
+    out += fmt::format("After {} the wall has lost {} mm³", duration(run, row), readable(row.volume_mm3));
   } else {
     out += fmt::format("The wall has lost {} mm³", readable(row.volume_mm3));
   }
-  if (std::isfinite(row.depth_um) && std::isfinite(row.width_mm)) {
+  if (run.has_groove() && std::isfinite(row.depth_um) && std::isfinite(row.width_mm)) {
     out += fmt::format(" from a groove {} µm deep and {} mm wide", readable(row.depth_um, 3),
                        readable(row.width_mm, 3));
   }
@@ -147,8 +153,13 @@ std::string verdict_cards(const RunFolder& run) {
   const Measurement& lab = run.manifest.measurement;
   const LedgerSummary& ledger = run.manifest.ledger;
   std::string out = html(volume_card(run, row));
-  out += html(groove_card("Groove depth", "µm", row.depth_um, row.depth_sd_um, lab.depth_mm, 1e3, lab));
-  out += html(groove_card("Groove width", "mm", row.width_mm, row.width_sd_mm, lab.width_mm, 1.0, lab));
+  if (!run.has_groove()) {
+    out += html({"Greatest wear depth", run.surface ? readable(run.surface->max_depth_um, 3) : "–", "µm",
+                 "Of the wall that wore most.", Mark::none, ""});
+  } else {
+    out += html(groove_card("Groove depth", "µm", row.depth_um, row.depth_sd_um, lab.depth_mm, 1e3, lab));
+    out += html(groove_card("Groove width", "mm", row.width_mm, row.width_sd_mm, lab.width_mm, 1.0, lab));
+  }
   out += html({"κ, mesh over law", readable(ledger.kappa, 6), "[-]",
                "Volume the mesh lost over the volume of the wear law. 1: the shape obeys the law.",
                Mark::none, ""});

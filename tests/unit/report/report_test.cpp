@@ -111,6 +111,29 @@ TEST_F(Report, ADamagedSeriesIsAnErrorAndNoSeriesIsNot) {
   EXPECT_TRUE(has(io_error([&] { (void)read_run_folder(folder_); }), "a.vtp: no such file"));
 }
 
+TEST_F(Report, ShowsParticlesInsteadOfAGrooveWhereARunHasThemInNumbers) {
+  std::string html = make_page(read_run_folder(folder_));
+  EXPECT_FALSE(has(html, ">Particles<"));
+  EXPECT_TRUE(has(html, ">The groove<"));
+
+  write_text(
+      folder_ / "tables/particles.csv",
+      "time_s,particles,mass_kg,inserted,removed,removed_mass_kg,contacts,wall_contacts,kinetic_energy_J,"
+      "elastic_energy_J,fastest_m_per_s\n"
+      "0,100,1,100,0,0,0,0,0,0,0\n0.5,80,0.8,100,20,0.2,150,12,0.01,0.002,1.5\n");
+  EXPECT_TRUE(has(make_page(read_run_folder(folder_)), ">The groove<"));  // a guided pin among them
+  const std::string force = read_text(folder_ / "tables/force.csv");
+  write_text(folder_ / "tables/force.csv", force.substr(0, force.find('\n') + 1));
+  html = make_page(read_run_folder(folder_));
+  EXPECT_TRUE(has(html, "At 0.5000 s the run holds 80 particles of 0.8000 kg in 150 contacts"));
+  EXPECT_TRUE(has(html, "20 left it, 0.2000 kg"));
+  EXPECT_TRUE(has(html, "<b>Figure 4.</b>"));
+  EXPECT_FALSE(has(html, ">The groove<"));
+  EXPECT_FALSE(has(html, ">Groove depth<"));
+  write_report(folder_);
+  EXPECT_TRUE(has(read_text(folder_ / "tables/mass-flow.csv"), "0.4"));  // kg/s
+}
+
 TEST_F(Report, ShowsThePinAndTheRidgesOnlyWhereThereAreSome) {
   EXPECT_FALSE(has(make_page(read_run_folder(folder_)), "The worn pin"));
   EXPECT_FALSE(has(make_page(read_run_folder(folder_)), "The ridges"));
