@@ -211,10 +211,10 @@ void Simulation::add_tips() {
 /// Sliding distance per step of `quasi_static`, as shares f of the contact's half-width a [m].
 /// docs/theory/quasi-static.md#increment
 double Simulation::choose_increment() const {
-  constexpr double kShare = 0.2, kRevolutions = 6.5;  // resolves the contact in every single pass
-  constexpr double kPatch = 2.0;                      // the contact's length: no spot is left out
-  constexpr double kSteepest = 2.5;                   // of alpha E* f; unstable above 5
-  constexpr double kSteepestRidges = 0.75;            // ridges are met by single increments
+  constexpr double kShare = 0.2, kOfRoot = 0.1;  // the first resolves the contact in every single pass
+  constexpr double kPatch = 2.0;                 // the contact's length: no spot is left out
+  constexpr double kSteepest = 2.5;              // of alpha E* f; unstable above 5
+  constexpr double kSteepestRidges = 0.75;       // ridges are met by single increments
   const double n = period_ > 0.0 ? end_ / period_ : 0.0;
   double increment = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < particles_.size(); ++p)
@@ -226,7 +226,7 @@ double Simulation::choose_increment() const {
       // A pass leaves a ripple of ~ f^(3/2) of its own wear, that is f^(3/2) / n of the groove.
       double f = kShare;
       if (wall.setup().contact == ContactRule::patch && wall.setup().deformation != DeformationRule::paper)
-        f = std::clamp(kShare * std::pow(n / kRevolutions, 2.0 / 3.0), kShare, kPatch);
+        f = std::clamp(kOfRoot * std::sqrt(n), kShare, kPatch);
       const double alpha_E = groove_coefficient(particles_.material[p], wall.material()) * properties.E_eff;
       if (alpha_E > 0.0) f = std::min(f, (ploughs() ? kSteepestRidges : kSteepest) / alpha_E);
       increment = std::min(increment, f * a);

@@ -135,8 +135,8 @@ TEST(Run, TakesLongerIncrementsTheMoreRevolutionsShareTheWear) {
   test::PinOnDisc pin = small_case();
   pin.wear_coefficient = 6.28e-13;
   EXPECT_NEAR(chosen_share(pin, 1.0), 0.2, 0.01);
-  EXPECT_NEAR(chosen_share(pin, 12.0), 0.3, 0.01);
-  EXPECT_NEAR(chosen_share(pin, 96.0), 1.2, 0.02);      // 8 times as many: 4 times as long
+  EXPECT_NEAR(chosen_share(pin, 12.0), 0.346, 0.01);
+  EXPECT_NEAR(chosen_share(pin, 96.0), 0.98, 0.02);     // 8 times as many: the root of 8 as long
   EXPECT_NEAR(chosen_share(pin, 1302.0), 2.0, 0.05);    // the contact's length at most
   pin.contact = simulation::ContactRule::per_triangle;  // its contacts are as small as the elements
   EXPECT_NEAR(chosen_share(pin, 1302.0), 0.2, 0.01);
