@@ -87,7 +87,7 @@ TEST(Acceleration, StricterToleranceTakesMoreRevolutions) {
     setup.wear[0].tolerance = tolerance;
     return study::choose_acceleration(setup).revolutions;
   };
-  const double loose = revolutions(0.05), strict = revolutions(0.0003);
+  const double loose = revolutions(0.05), strict = revolutions(0.0001);
   EXPECT_GT(strict, loose);
   EXPECT_EQ(revolutions(1e-9), 96.0);
 }
