@@ -37,7 +37,7 @@ void Simulation::load(core::ArchiveReader& archive) {
                       std::ranges::all_of(particles_.velocity, is_finite) &&
                       std::ranges::all_of(particles_.spin, is_finite),
                   "belongs to particles that are nowhere");
-  for (const Wall& wall : walls_)
+  for (Wall& wall : walls_)
     archive.require(wall.is_plane() || wall.surface().restored(),
                     "belongs to piles that do not fit the wall");
   for (auto& tip : tips_) archive.require(!tip || tip->restored(), "belongs to a worn tip that is no map");

@@ -85,13 +85,14 @@ class WearingSurface {
 
   /// Wear booked per element since the start [m^3].
   [[nodiscard]] std::span<const double> element_volume() const noexcept { return volume_; }
-  /// Sum of element_volume, in the order of elements [m^3].
+  /// Sum of element_volume, in a fixed order [m^3].
   [[nodiscard]] double deposited_volume() const;
   /// Volume between the surface as it was and as it is, by geometry alone [m^3]; see swept_between. Where
   /// wear moved an open border that is not flat, the sum over the updates, since there the path matters.
   [[nodiscard]] double swept_volume() const;
-  /// Triangles with a displaced vertex, ascending.
-  [[nodiscard]] std::vector<Index> worn_triangles() const;
+  /// Triangles with a vertex that was displaced, ascending. Costs what is new since the last call, not the
+  /// mesh.
+  [[nodiscard]] const std::vector<Index>& worn_triangles() const;
   /// Looks for triangles that have turned over (all worn ones).
   void check_orientation();
   [[nodiscard]] const DeformGuards& guards() const noexcept { return guards_; }
@@ -112,7 +113,10 @@ class WearingSurface {
     archive("guards", self.guards_);
   }
   /// @return whether what was loaded fits the mesh
-  [[nodiscard]] bool restored() const noexcept { return piled_.empty() || piled_.size() == sink_.size(); }
+  [[nodiscard]] bool restored() noexcept {
+    worn_known_ = false;
+    return piled_.empty() || piled_.size() == sink_.size();
+  }
 
  private:
   void add_to_vertex(Index v, double volume) {
@@ -120,7 +124,7 @@ class WearingSurface {
     if (pending == 0.0 && volume > 0.0) touched_.push_back(v);
     pending += volume;
   }
-  void displace(Index v, double distance) noexcept;
+  void displace(Index v, double distance);
   void watch(Index v, double distance) noexcept;
   void watch_orientation(Index t) noexcept;
   void close_volume(std::span<const Index> vertices, std::span<const double> pending,
@@ -146,6 +150,9 @@ class WearingSurface {
   bool flat_ = true, border_moved_ = false;
   double swept_by_updates_ = 0.0, odometer_ = 0.0, deepest_sink_ = 0.0;
   std::uint64_t revision_ = 1;
+  mutable std::vector<Index> worn_;  // worn_triangles() as last asked for, once that is known
+  mutable bool worn_known_ = false;
+  mutable std::vector<Index> first_moved_;  // vertices displaced for the first time since then
   DeformGuards guards_;
 };
 
