@@ -103,4 +103,24 @@ inline double fraction_within(const contact::Spheres& spheres, const Vec3& low, 
   return static_cast<double>(count) / static_cast<double>(filled.size());
 }
 
+constexpr double kBedRadius = 3e-3, kBedSide = 16 * 2.06 * kBedRadius;
+
+/// A box with 4096 grains of kBedRadius on a lattice, `stretch` times as high, about to fall on its floor.
+inline simulation::Setup bed(double friction, double stretch) {
+  simulation::Setup setup = grains(0.3, friction, kBedSide);
+  setup.walls.push_back(plane("floor", {0, 0, 0}, {0, 0, 1}));
+  setup.run.gravity = {0, 0, -9.81};
+  setup.insertions[0].placed = lattice(4096, 16, kBedRadius, 2.06 * kBedRadius, 0.3);
+  for (simulation::PlacedSphere& s : setup.insertions[0].placed) s.position.z *= stretch;
+  return setup;
+}
+
+/// Volume fraction inside the bed. Walls put their neighbours into layers: within seven radii of them the
+/// fraction goes up and down.
+inline double fraction_of_bed(const simulation::Simulation& run) {
+  constexpr double R = kBedRadius, wall = 7.0 * R;
+  return fraction_within(run.bulk()->spheres(), {wall, wall, wall},
+                         {kBedSide - wall, kBedSide - wall, 18 * R}, 0.1 * R);
+}
+
 }  // namespace abradem::test

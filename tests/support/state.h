@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <map>
 #include <string>
@@ -63,6 +64,22 @@ inline void expect_same_bits_from_anywhere(const Setup& setup, std::uint64_t ste
     EXPECT_EQ(other.paper, ledger.paper);
     EXPECT_EQ(other.deposited, ledger.deposited);
   }
+}
+
+/// Saves in the middle of a run on one thread, goes on with three, and compares with the one that kept its
+/// own.
+inline void expect_same_bits_on_other_threads(const Setup& setup, std::uint64_t middle, std::uint64_t end) {
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(1);
+  Simulation whole(setup);
+  finish(whole, middle);
+  const std::string state = saved(whole);
+  finish(whole, end);
+  omp_set_num_threads(3);
+  Simulation run = loaded(setup, state);
+  finish(run, end);
+  omp_set_num_threads(before);
+  EXPECT_TRUE(saved(run) == saved(whole));
 }
 
 }  // namespace abradem::test

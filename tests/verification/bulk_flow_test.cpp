@@ -17,17 +17,9 @@ namespace {
 TEST(Bulk, FrictionalGrainsPackLooser) {
   const OneThread alone;
   // mu = 0.5: random loose packing, 0.58 to 0.60.
-  constexpr double R = 3e-3, side = 16 * 2.06 * R;
-  simulation::Setup setup = grains(0.3, 0.5, side);
-  setup.walls.push_back(plane("floor", {0, 0, 0}, {0, 0, 1}));
-  setup.run.gravity = {0, 0, -9.81};
-  setup.insertions[0].placed = lattice(4096, 16, R, 2.06 * R, 0.3);
-  for (PlacedSphere& s : setup.insertions[0].placed) s.position.z *= 1.5;
-  Simulation run(setup);
+  Simulation run(bed(0.5, 1.5));
   for (int k = 0; k < 8000; ++k) run.step();
-  const double wall = 7.0 * R;
-  const double packed =
-      fraction_within(run.bulk()->spheres(), {wall, wall, wall}, {side - wall, side - wall, 18 * R}, 0.1 * R);
+  const double packed = fraction_of_bed(run);
   EXPECT_GT(packed, 0.58);
   EXPECT_LT(packed, 0.60);
   RecordProperty("fraction", std::to_string(packed));

@@ -59,18 +59,10 @@ TEST(Bulk, FrictionAndDampingOnlyTakeEnergy) {
 
 TEST(Bulk, FrictionlessGrainsPackAtRandomCloseDensity) {
   const OneThread alone;
-  constexpr double R = 3e-3, side = 16 * 2.06 * R;
-  simulation::Setup setup = grains(0.3, 0.0, side);
-  setup.walls.push_back(plane("floor", {0, 0, 0}, {0, 0, 1}));
-  setup.run.gravity = {0, 0, -9.81};
-  setup.insertions[0].placed = lattice(4096, 16, R, 2.06 * R, 0.3);
-  Simulation run(setup);
+  Simulation run(bed(0.0, 1.0));
   for (int k = 0; k < 8000; ++k) run.step();
   const BulkState s = run.bulk_state();
-  // Walls put their neighbours into layers: within seven radii of them the fraction goes up and down.
-  const double wall = 7.0 * R;
-  const double packed =
-      fraction_within(run.bulk()->spheres(), {wall, wall, wall}, {side - wall, side - wall, 18 * R}, 0.1 * R);
+  const double packed = fraction_of_bed(run);
   EXPECT_GT(packed, 0.635);
   EXPECT_LT(packed, 0.645);
   RecordProperty("fraction", std::to_string(packed));

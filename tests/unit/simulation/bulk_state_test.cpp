@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run with particles in numbers that is saved and put back goes on to the same bits.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include "abradem/core/error.h"
 #include "support/state.h"
@@ -82,17 +81,7 @@ TEST(BulkState, GoesOnToTheSameBits) {
 
 TEST(BulkState, GoesOnOnOtherThreads) {
   const simulation::Setup setup = feed_on_a_shaking_plate(ContactRule::resolved);
-  const int before = omp_get_max_threads();
-  omp_set_num_threads(1);
-  Simulation whole(setup);
-  finish(whole, 700);
-  const std::string middle = saved(whole);
-  finish(whole, 1400);
-  omp_set_num_threads(3);
-  Simulation run = loaded(setup, middle);
-  finish(run, 1400);
-  omp_set_num_threads(before);
-  EXPECT_TRUE(saved(run) == saved(whole));
+  test::expect_same_bits_on_other_threads(setup, 700, 1400);
 }
 
 TEST(BulkState, DamagedIsRefusedOrCanBeSteppedOn) {

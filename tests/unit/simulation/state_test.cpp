@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run that is saved and put back goes on to the same bits.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <string>
 #include <vector>
@@ -76,7 +75,7 @@ TEST(State, OfParticlesThatMeetGoesOnToTheSameBits) {
   setup.particles.clear();
   for (int k = 0; k < 4; ++k) {
     ParticleSetup p;
-    p.name = "p" + std::to_string(k);
+    p.name = std::string("p").append(std::to_string(k));
     p.material = "iron_ore";
     p.radius = 0.5e-3;
     p.position = {5.8e-3 + 0.2e-3 * k, 0.99e-3 * k, 0.52e-3 + 0.05e-3 * k};
@@ -113,23 +112,13 @@ TEST(State, GoesOnToTheSameBitsOnOtherThreads) {
   for (int k = 0; k < 12; ++k) {
     ParticleSetup p = first;
     const double angle = 2.0 * std::numbers::pi * k / 12.0;
-    p.name = "p" + std::to_string(k);
+    p.name = std::string("p").append(std::to_string(k));
     p.radius = 1.2e-3;
     p.position = {pin.track * std::cos(angle), pin.track * std::sin(angle), p.radius};
     p.load = {0.0, 0.0, -1.0};
     setup.particles.push_back(p);
   }
-  const int before = omp_get_max_threads();
-  omp_set_num_threads(1);
-  Simulation whole(setup);
-  finish(whole, 150);
-  const std::string middle = saved(whole);
-  finish(whole, 300);
-  omp_set_num_threads(3);
-  Simulation run = loaded(setup, middle);
-  finish(run, 300);
-  omp_set_num_threads(before);
-  EXPECT_TRUE(saved(run) == saved(whole));
+  test::expect_same_bits_on_other_threads(setup, 150, 300);
 }
 
 TEST(State, LetsTheEndBeMovedFurther) {
