@@ -112,6 +112,23 @@ TEST(Sweep, RunsOneCaseAtATimeForJobArrays) {
   EXPECT_EQ(run_program(kSweep + " -o parts --case 7", scratch.path()).exit_code, 2);
 }
 
+/// Another process has made its folder and the first file in it, and no more yet.
+TEST(Sweep, OneCaseAtATimeIsNotStoppedByACaseThatJustBegins) {
+  const ScratchFolder scratch;
+  const fs::path parts = scratch.path() / "parts";
+  ASSERT_EQ(run_program(kSweep + " -o parts --quiet --case 1", scratch.path()).exit_code, 0);
+  fs::create_directories(parts / "runs" / "0002");
+  write_file(parts / "runs" / "0002" / ".abradem-write-test", "");
+  const Outcome other = run_program(kSweep + " -o parts --quiet --case 3", scratch.path());
+  EXPECT_EQ(other.exit_code, 0) << other.err;
+  const Outcome early = run_program(kSweep + " -o parts --quiet --collect", scratch.path());
+  EXPECT_EQ(early.exit_code, 0) << early.err;
+  EXPECT_TRUE(contains(summary(parts), "\n0002,missing,"));
+  const Outcome whole = run_program(kSweep + " -o parts --quiet", scratch.path());
+  EXPECT_EQ(whole.exit_code, 2);
+  EXPECT_TRUE(contains(whole.err, "runs/0002' is in the way: it holds files that are not of a run"));
+}
+
 TEST(Sweep, SamplesRanges) {
   const ScratchFolder scratch;
   const std::string ranges = "sweep " + kCase + kShort +

@@ -74,6 +74,7 @@ bool is_of_others(const fs::path& folder) {
 struct Found {
   JobResult result;
   bool settled = false;       ///< nothing is to be gained by running it again
+  bool no_run = false;        ///< files of something else, or of a run that another process just begins
   bool other_inputs = false;  ///< a run of another case, or of this one with other values
 };
 
@@ -89,11 +90,10 @@ Found look_at(const PreparedJob& prepared, const fs::path& folder, bool repeat_f
   found.result.folder = folder;
   if (is_empty_or_missing(folder)) return found;
   std::error_code ignored;
-  if (!fs::exists(folder / "case.resolved.toml", ignored))
-    throw InputError(
-        fmt::format("folder '{}' is in the way: it holds files that are not of a run; choose "
-                    "another with -o",
-                    folder.string()));
+  if (!fs::exists(folder / "case.resolved.toml", ignored)) {
+    found.no_run = true;
+    return found;
+  }
   report::Manifest run;
   try {
     run = report::read_manifest(folder / "run.json");
@@ -148,8 +148,8 @@ class Batch {
   BatchResult run();
 
  private:
-  void prepare_folder();
-  void drop_settled();
+  void look_around();
+  void prepare_folder() const;
   void start_next();
   void take_in(const ChildProcesses::Ended& ended);
   void record_failure(std::size_t job, int exit_code, const std::string& message) const;
@@ -175,7 +175,7 @@ class Batch {
   std::optional<RunLog> log_;
 };
 
-/// Sees what is there and what is to be done; touches nothing.
+/// Refuses what can be refused without reading a run.
 Batch::Batch(const BatchOptions& options, std::span<const PreparedJob> jobs)
     : options_(options), jobs_(jobs) {
   std::error_code error;
@@ -188,47 +188,47 @@ Batch::Batch(const BatchOptions& options, std::span<const PreparedJob> jobs)
                     options.output.string()));
   if (options.collect && !fs::exists(options.output / kManifest, error))
     throw InputError(fmt::format("folder '{}' holds no runs to collect", options.output.string()));
+}
+
+/// Sees what is there and what is to be done; touches nothing. The folders looked at must be locked: another
+/// process could just be beginning its run in one.
+void Batch::look_around() {
   std::vector<std::string> others;
-  for (std::size_t j = 0; j < jobs.size(); ++j) {
-    Found found = look_at(jobs[j], folder_of(j), options.force);
-    const bool wanted = options.only ? *options.only == j : true;
-    if (found.other_inputs && wanted) others.push_back(jobs[j].job.name);
-    const auto [first, is_first] = first_with_.try_emplace(jobs[j].inputs_hash, j);
-    const bool runs = options.only ? *options.only == j : is_first;
-    if (runs && !found.settled && !options.collect) waiting_.push_back(j);
+  for (std::size_t j = 0; j < jobs_.size(); ++j) {
+    const bool is_first = first_with_.try_emplace(jobs_[j].inputs_hash, j).second;
+    if (options_.only && *options_.only != j) {
+      result_.jobs.push_back({jobs_[j].job.name, folder_of(j), JobStatus::missing, 0, {}, 0.0});
+      continue;
+    }
+    Found found = look_at(jobs_[j], folder_of(j), options_.force);
+    if (found.no_run && !options_.collect)
+      throw InputError(fmt::format(
+          "folder '{}' is in the way: it holds files that are not of a run; choose another with -o",
+          folder_of(j).string()));
+    if (found.other_inputs) others.push_back(jobs_[j].job.name);
+    if ((is_first || options_.only) && !found.settled && !options_.collect) waiting_.push_back(j);
     result_.jobs.push_back(std::move(found.result));
   }
   to_run_ = waiting_.size();
-  if (!others.empty() && !options.force && !options.collect)
+  if (!others.empty() && !options_.force && !options_.collect)
     throw InputError(
         fmt::format("folder '{}' holds runs of other inputs under the names {}; choose another with -o, or "
                     "add --force to "
                     "replace them (finished runs of the same inputs are kept)",
-                    options.output.string(), some_of(others)));
+                    options_.output.string(), some_of(others)));
 }
 
-void Batch::prepare_folder() {
+void make_folder(const fs::path& folder) {
   std::error_code error;
-  fs::create_directories(options_.output / "runs", error);
+  fs::create_directories(folder, error);
   if (error)
-    throw IoError(
-        fmt::format("cannot create the output folder '{}': {}", options_.output.string(), error.message()));
-  for (const std::size_t j : waiting_) {
-    fs::create_directories(folder_of(j), error);
-    if (error)
-      throw IoError(fmt::format("cannot create the folder '{}': {}", folder_of(j).string(), error.message()));
-  }
-  if (!options_.only || !fs::exists(options_.output / kManifest, error)) write_manifest("running");
+    throw IoError(fmt::format("cannot create the output folder '{}': {}", folder.string(), error.message()));
 }
 
-/// What another process finished while this one waited for the folder.
-void Batch::drop_settled() {
-  std::erase_if(waiting_, [&](std::size_t j) {
-    Found found = look_at(jobs_[j], folder_of(j), options_.force);
-    if (found.settled) result_of(j) = std::move(found.result);
-    return found.settled;
-  });
-  to_run_ = waiting_.size();
+void Batch::prepare_folder() const {
+  for (const std::size_t j : waiting_) make_folder(folder_of(j));
+  std::error_code ignored;
+  if (!options_.only || !fs::exists(options_.output / kManifest, ignored)) write_manifest("running");
 }
 
 void Batch::start_next() {
@@ -377,18 +377,21 @@ std::string_view Batch::end_status() const {
 
 BatchResult Batch::run() {
   if (options_.collect) {
+    look_around();
     share_results();
     write_manifest(end_status());
     return std::move(result_);
   }
   const StopSignals signals;
-  std::error_code ignored;
-  fs::create_directories(options_.output, ignored);
+  make_folder(options_.output);
   const PathLock lock(options_.output, options_.only ? PathLock::Kind::shared : PathLock::Kind::exclusive);
-  prepare_folder();
   std::optional<PathLock> own_lock;
-  if (options_.only) own_lock.emplace(folder_of(*options_.only), PathLock::Kind::exclusive);
-  drop_settled();
+  if (options_.only) {
+    make_folder(folder_of(*options_.only));
+    own_lock.emplace(folder_of(*options_.only), PathLock::Kind::exclusive);
+  }
+  look_around();
+  prepare_folder();
   // Processes that share the folder do not share its log; where nothing is done it stays as it is.
   log_.emplace(options_.only || to_run_ == 0 ? fs::path("/dev/null") : options_.output / "batch.log",
                options_.quiet);

@@ -271,6 +271,8 @@ int run_case(const RunOptions& options) {
 
   const StopSignals signals;
   OutputFolder folder(options.output, options.force);
+  // First, for it tells the folder of a run from others, whatever ends the run from here on.
+  io::write_file_atomically(options.output / "case.resolved.toml", how.resolved_text);
   io::write_file_atomically(options.output / "case.toml", options.case_text);
   RunLog log(options.output / "run.log", options.quiet);
   const PathLock lock(options.output / "run.log", PathLock::Kind::exclusive);
@@ -280,8 +282,8 @@ int run_case(const RunOptions& options) {
     setup = study::accelerated(setup, how.record.acceleration->factor);
     run = Simulation(setup, MeshLoader(setup));
     how.resolved_text = io::resolved_case(setup);
+    io::write_file_atomically(options.output / "case.resolved.toml", how.resolved_text);
   }
-  io::write_file_atomically(options.output / "case.resolved.toml", how.resolved_text);
   announce_run(run, log);
   io::RunRecorder recorder(run, options.output);
   folder.keep();
