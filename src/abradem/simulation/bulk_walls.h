@@ -78,6 +78,7 @@ class BulkWalls {
   std::vector<NearMesh> meshes_;                   // by sphere, then wall
   std::vector<double> odometer_;                   // of each wall's wear at the rebuild [m]
   std::vector<contact::PairConstants> constants_;  // walls x materials
+  bool options_ = false;                           // has any of them
   double fastest_wall_ = 0.0, next_removal_ = std::numeric_limits<double>::infinity();
 };
 
