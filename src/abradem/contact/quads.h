@@ -13,6 +13,7 @@ ABRADEM_INLINE const Quad* quads(const SphereRow& s) noexcept { return reinterpr
 ABRADEM_INLINE Quad* quads(SphereRow& s) noexcept { return reinterpret_cast<Quad*>(&s); }
 ABRADEM_INLINE Quad* quads(LoadRow& s) noexcept { return reinterpret_cast<Quad*>(&s); }
 ABRADEM_INLINE const Quad* quads(const LoadRow& s) noexcept { return reinterpret_cast<const Quad*>(&s); }
+ABRADEM_INLINE const Quad& quad(const SpringRow& s) noexcept { return reinterpret_cast<const Quad&>(s); }
 ABRADEM_INLINE Quad& quad(SpringRow& s) noexcept { return reinterpret_cast<Quad&>(s); }
 ABRADEM_INLINE Quad& quad_at(double* p) noexcept { return *reinterpret_cast<Quad*>(p); }
 

@@ -38,6 +38,8 @@ struct Work {
   LoadRow* __restrict far_load;
   LoadRow* __restrict load;
   const PairTable* table;
+  const std::uint8_t* __restrict image;  ///< null where nothing is periodic
+  const SpringRow* __restrict shift;
   std::int32_t block_end;  ///< spheres from here on belong to later blocks
   double dt;
 };
@@ -246,7 +248,7 @@ constexpr unsigned byte_shift(std::size_t m) noexcept {
 
 /// All pairs of one block, eight at a time. What overlaps is gathered into a chunk; full chunks go through
 /// the law. (Copies of w's pointers: stores to `touching`, which are bytes, may alias anything.)
-template <bool kOptions>
+template <bool kOptions, bool kPeriodic>
 ABRADEM_INLINE double forces_of_block(const Work& w, std::int32_t first, std::int32_t last,
                                       PairChunk& p) noexcept {
   const Quad minus{-1.0, -1.0, -1.0, 1.0};
@@ -271,9 +273,12 @@ ABRADEM_INLINE double forces_of_block(const Work& w, std::int32_t first, std::in
     std::uint64_t gap[8];  // bits of |x_i - x_j|^2 - (R_i + R_j)^2
     for (std::size_t half = 0; half < 8; half += 4) {
       Quad column[4];
-      for (std::size_t m = 0; m < 4; ++m)
-        column[m] = d[half + m] =
+      for (std::size_t m = 0; m < 4; ++m) {
+        Quad between =
             quads(sphere[owner[k + half + m]])[0] + quads(sphere[partner[k + half + m]])[0] * minus;
+        if constexpr (kPeriodic) between += quad(w.shift[w.image[k + half + m]]);
+        column[m] = d[half + m] = between;
+      }
       transpose(column[0], column[1], column[2], column[3]);
       const Quad g =
           column[0] * column[0] + column[1] * column[1] + column[2] * column[2] - column[3] * column[3];
@@ -301,7 +306,9 @@ ABRADEM_INLINE double forces_of_block(const Work& w, std::int32_t first, std::in
   }
   for (; pair < last; ++pair) {
     const auto k = at(pair);
-    const Quad d = quads(sphere[owner[k]])[0] + quads(sphere[partner[k]])[0] * minus, s = d * d;
+    Quad d = quads(sphere[owner[k]])[0] + quads(sphere[partner[k]])[0] * minus;
+    if constexpr (kPeriodic) d += quad(w.shift[w.image[k]]);
+    const Quad s = d * d;
     const bool sticks = kOptions && w.table->adhesion && touching[k] != 0;
     const bool overlaps = s[0] + s[1] + s[2] - s[3] < 0.0 || sticks;
     quad_at(p.offset + 4 * count) = d;
@@ -313,13 +320,22 @@ ABRADEM_INLINE double forces_of_block(const Work& w, std::int32_t first, std::in
   return count > 0 ? std::max(deepest, flush<kOptions>(w, p, count)) : deepest;
 }
 
+using BlockForces = double (*)(const Work&, std::int32_t, std::int32_t, PairChunk&) noexcept;
 ABRADEM_DISPATCH double block_forces(const Work& w, std::int32_t first, std::int32_t last,
                                      PairChunk& p) noexcept {
-  return forces_of_block<false>(w, first, last, p);
+  return forces_of_block<false, false>(w, first, last, p);
 }
-ABRADEM_DISPATCH double block_forces_with_options(const Work& w, std::int32_t first, std::int32_t last,
-                                                  PairChunk& p) noexcept {
-  return forces_of_block<true>(w, first, last, p);
+ABRADEM_DISPATCH double with_options(const Work& w, std::int32_t first, std::int32_t last,
+                                     PairChunk& p) noexcept {
+  return forces_of_block<true, false>(w, first, last, p);
+}
+ABRADEM_DISPATCH double periodic(const Work& w, std::int32_t first, std::int32_t last,
+                                 PairChunk& p) noexcept {
+  return forces_of_block<false, true>(w, first, last, p);
+}
+ABRADEM_DISPATCH double periodic_with_options(const Work& w, std::int32_t first, std::int32_t last,
+                                              PairChunk& p) noexcept {
+  return forces_of_block<true, true>(w, first, last, p);
 }
 
 /// Blocks' own pairs first, then what comes from earlier blocks.
@@ -356,9 +372,13 @@ bool sphere_forces(const Spheres& spheres, SphereList& list, const PairTable& ta
                     list.far_load.data(),
                     load.data(),
                     &table,
+                    list.image.empty() ? nullptr : list.image.data(),
+                    list.shifts.data(),
                     static_cast<std::int32_t>(end),
                     dt};
-    const auto block = table.options ? block_forces_with_options : block_forces;
+    const BlockForces closed = table.options ? periodic_with_options : periodic;
+    const BlockForces open = table.options ? with_options : block_forces;
+    const auto block = list.image.empty() ? open : closed;
     deepest[b] = block(work, list.start[begin], list.start[end], chunk);
   });
   add_far_loads(list, load);

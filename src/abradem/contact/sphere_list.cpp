@@ -59,7 +59,41 @@ void SphereList::rebuild(Spheres& spheres, double skin) {
   ++rebuilds_;
 }
 
+void SphereList::make_periodic(const Vec3& low, const Vec3& period) {
+  low_ = low;
+  period_ = period;
+  for (std::size_t k = 0; k < shifts.size(); ++k) {
+    const auto steps = [&](std::size_t by) { return static_cast<double>(k / by % 3) - 1.0; };
+    shifts[k] = {steps(1) * period.x, steps(3) * period.y, steps(9) * period.z, 0.0};
+  }
+}
+
+void SphereList::name_images(const Spheres& spheres) {
+  image.clear();
+  if (period_ == Vec3{}) return;
+  image.resize(pairs());
+  const auto steps = [](double d, double period) {  // to the nearest image
+    return period > 0.0 && d < -0.5 * period ? 2 : period > 0.0 && d > 0.5 * period ? 0 : 1;
+  };
+  core::parallel_for(
+      pairs(),
+      [&](std::size_t k) {
+        const Vec3 d = spheres.row[at(owner[k])].position() - spheres.row[at(partner[k])].position();
+        image[k] = static_cast<std::uint8_t>(steps(d.x, period_.x) + 3 * steps(d.y, period_.y) +
+                                             9 * steps(d.z, period_.z));
+      },
+      kBlock);
+}
+
 void SphereList::sort_along_curve(Spheres& spheres, double cell) {
+  const auto wrap = [](double& x, double low, double period) {
+    if (!(period > 0.0)) return;
+    x -= period * std::floor((x - low) / period);
+    if (x >= low + period) x = low;  // by rounding
+  };
+  if (period_ != Vec3{})
+    for (SphereRow& s : spheres.row)
+      wrap(s.x, low_.x, period_.x), wrap(s.y, low_.y, period_.y), wrap(s.z, low_.z, period_.z);
   constexpr double kInf = std::numeric_limits<double>::infinity();
   Vec3 low{kInf, kInf, kInf}, high = -low;
   std::vector<KeyedIndex> order;
@@ -75,20 +109,33 @@ void SphereList::sort_along_curve(Spheres& spheres, double cell) {
   // No more cells than some per sphere, however far one has strayed, and no more than the key can hold.
   const double budget = 8.0 * static_cast<double>(order.size()) + 4096.0;
   const Vec3 extent = high - low;
-  const auto cells = [&](double length) { return std::floor(length / cell) + 1.0; };
-  while (cells(extent.x) * cells(extent.y) * cells(extent.z) > budget ||
-         std::max({cells(extent.x), cells(extent.y), cells(extent.z)}) > 1024.0)
-    cell *= 1.26;
-  origin_ = low;
-  cell_ = cell;
-  nx_ = static_cast<std::int32_t>(cells(extent.x));
-  ny_ = static_cast<std::int32_t>(cells(extent.y));
-  nz_ = static_cast<std::int32_t>(cells(extent.z));
+  const auto cells = [&](double length, double period) {  // a period holds a whole number of them
+    return period > 0.0 ? std::max(3.0, std::floor(period / cell)) : std::floor(length / cell) + 1.0;
+  };
+  double count[3];
+  for (;; cell *= 1.26) {
+    count[0] = cells(extent.x, period_.x), count[1] = cells(extent.y, period_.y),
+    count[2] = cells(extent.z, period_.z);
+    const double most = std::max({count[0], count[1], count[2]});
+    if (!(count[0] * count[1] * count[2] > budget || most > 1024.0) || most <= 3.0) break;
+  }
+  const auto origin = [](double lowest, double of_box, double period) {
+    return period > 0.0 ? of_box : lowest;
+  };
+  const auto width = [&](double period, double n) { return period > 0.0 ? period / n : cell; };
+  origin_ = {origin(low.x, low_.x, period_.x), origin(low.y, low_.y, period_.y),
+             origin(low.z, low_.z, period_.z)};
+  cell_ = {width(period_.x, count[0]), width(period_.y, count[1]), width(period_.z, count[2])};
+  nx_ = static_cast<std::int32_t>(count[0]);
+  ny_ = static_cast<std::int32_t>(count[1]);
+  nz_ = static_cast<std::int32_t>(count[2]);
 
   const auto cell_of = [&](const SphereRow& s) {
-    return std::array{static_cast<std::uint32_t>((s.x - origin_.x) / cell_),
-                      static_cast<std::uint32_t>((s.y - origin_.y) / cell_),
-                      static_cast<std::uint32_t>((s.z - origin_.z) / cell_)};
+    const auto along = [](double way, double wide, std::int32_t n) {
+      return std::min(static_cast<std::uint32_t>(way / wide), static_cast<std::uint32_t>(n - 1));
+    };
+    return std::array{along(s.x - origin_.x, cell_.x, nx_), along(s.y - origin_.y, cell_.y, ny_),
+                      along(s.z - origin_.z, cell_.z, nz_)};
   };
   core::parallel_for(
       order.size(),
@@ -137,20 +184,37 @@ void SphereList::find_pairs(const Spheres& spheres, double skin) {
     const std::size_t end = std::min(count_, (b + 1) * kBlock);
     for (std::size_t i = b * kBlock; i < end; ++i) {
       const SphereRow& s = spheres.row[i];
-      const auto cell = [&](double x, double origin) {
-        return static_cast<std::int32_t>((x - origin) / cell_);
+      const auto cell = [](double way, double wide, std::int32_t n) {
+        return std::min(static_cast<std::int32_t>(way / wide), n - 1);
       };
-      const std::int32_t cx = cell(s.x, origin_.x), cy = cell(s.y, origin_.y), cz = cell(s.z, origin_.z);
+      const std::int32_t cx = cell(s.x - origin_.x, cell_.x, nx_), cy = cell(s.y - origin_.y, cell_.y, ny_),
+                         cz = cell(s.z - origin_.z, cell_.z, nz_);
       const std::size_t row = list.size();
       const double reach = s.radius + skin;
-      for (std::int32_t z = std::max(cz - 1, 0); z <= std::min(cz + 1, nz_ - 1); ++z)
-        for (std::int32_t y = std::max(cy - 1, 0); y <= std::min(cy + 1, ny_ - 1); ++y)
-          for (std::int32_t x = std::max(cx - 1, 0); x <= std::min(cx + 1, nx_ - 1); ++x) {
+      // One cell further than the last is, where space is periodic, the first one's image.
+      const auto first = [](std::int32_t c, double period) {
+        return period > 0.0 ? c - 1 : std::max(c - 1, 0);
+      };
+      const auto past = [](std::int32_t c, std::int32_t n, double period) {
+        return period > 0.0 ? c + 1 : std::min(c + 1, n - 1);
+      };
+      const auto image_of = [](std::int32_t& c, std::int32_t n, double period) {
+        const double away = c < 0 ? period : c >= n ? -period : 0.0;
+        c += c < 0 ? n : c >= n ? -n : 0;
+        return away;
+      };
+      for (std::int32_t iz = first(cz, period_.z); iz <= past(cz, nz_, period_.z); ++iz)
+        for (std::int32_t iy = first(cy, period_.y); iy <= past(cy, ny_, period_.y); ++iy)
+          for (std::int32_t ix = first(cx, period_.x); ix <= past(cx, nx_, period_.x); ++ix) {
+            std::int32_t x = ix, y = iy, z = iz;
+            const double sx = image_of(x, nx_, period_.x), sy = image_of(y, ny_, period_.y),
+                         sz = image_of(z, nz_, period_.z);
             const std::size_t c = (at(z) * at(ny_) + at(y)) * at(nx_) + at(x);
             const std::int32_t last = cell_end_[c];
             for (std::int32_t j = std::max(cell_begin_[c], static_cast<std::int32_t>(i) + 1); j < last; ++j) {
               const SphereRow& o = spheres.row[at(j)];
-              const double dx = s.x - o.x, dy = s.y - o.y, dz = s.z - o.z, r = reach + o.radius;
+              const double dx = s.x - o.x + sx, dy = s.y - o.y + sy, dz = s.z - o.z + sz,
+                           r = reach + o.radius;
               if (dx * dx + dy * dy + dz * dz < r * r) list.push_back(j);
             }
           }
@@ -165,6 +229,7 @@ void SphereList::find_pairs(const Spheres& spheres, double skin) {
     std::copy(found[b].begin(), found[b].end(), partner.begin() + start[b * kBlock]);
   });
   name_owners();
+  name_images(spheres);
 }
 
 void SphereList::name_owners() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -23,6 +24,16 @@ class SphereList {
   /// Sorts the spheres along a Morton curve, takes out those with id < 0, finds the pairs within `skin` and
   /// carries the springs over. O(n).
   void rebuild(Spheres& spheres, double skin);
+  /// Space repeats itself: what is at x is also at x + period, along the axes whose period is not zero. The
+  /// rebuild brings spheres back into [low, low + period). Periods are at least three times 2 R + skin.
+  void make_periodic(const Vec3& low, const Vec3& period);
+  /// Where pair k's partner is seen from its owner: add this to x_owner - x_partner [m].
+  [[nodiscard]] Vec3 shift(std::size_t k) const noexcept {
+    return image.empty() ? Vec3{} : Vec3{shifts[image[k]].x, shifts[image[k]].y, shifts[image[k]].z};
+  }
+  /// Which image of its partner each pair means; after a load.
+  void name_images(const Spheres& spheres);
+
   /// Contacts are to remember torques too, from the next rebuild on.
   void remember_torques() noexcept { torques_ = true; }
 
@@ -49,7 +60,9 @@ class SphereList {
   std::vector<std::int32_t> far;  ///< of each pair whose partner is in a later block: its row in far_load
   std::vector<LoadRow> far_load;  ///< what far pairs do to their partners, partner by partner
   std::vector<std::int32_t> far_target;  ///< spheres that far pairs act on, ascending
-  std::vector<std::int32_t> far_start;   ///< first row of far_load of each; one more than targets
+  std::vector<std::uint8_t> image;       ///< of each pair: which of `shifts`; empty where nothing is periodic
+  std::array<SpringRow, 27> shifts{};
+  std::vector<std::int32_t> far_start;  ///< first row of far_load of each; one more than targets
 
  private:
   void sort_along_curve(Spheres& spheres, double cell);
@@ -63,8 +76,9 @@ class SphereList {
   std::uint64_t rebuilds_ = 0;
   // The grid that the spheres were sorted by.
   Vec3 origin_;
-  double cell_ = 1.0;
+  Vec3 cell_{1.0, 1.0, 1.0};
   std::int32_t nx_ = 1, ny_ = 1, nz_ = 1;
+  Vec3 low_, period_;  // 0: open
   std::vector<std::int32_t> cell_begin_, cell_end_;
   std::vector<std::int32_t> was_;  // index of each sphere in the order before; at least `before` spheres: new
 };

@@ -189,6 +189,21 @@ class Checker {
   }
 
   /// An insertion whose spheres are drawn at random.
+  void check_face(const InsertionSetup& i, const std::string& path) {
+    const Vec3 e = i.volume.high - i.volume.low;
+    const double d = 2.0 * simulation::largest_radius(i.size);
+    const int flat = (e.x == 0.0) + (e.y == 0.0) + (e.z == 0.0);
+    const auto wide = [d](double x) { return x == 0.0 || x >= d; };
+    if (flat != 1)
+      error(path + ".volume", "a face has low and high equal along one axis, and apart along the others");
+    else if (!wide(e.x) || !wide(e.y) || !wide(e.z))
+      error(path + ".volume", fmt::format("is too small for one sphere of {:.4g} mm radius", 500.0 * d));
+    const Vec3& v = i.velocity;
+    const double through = e.x == 0.0 ? v.x : e.y == 0.0 ? v.y : v.z;
+    if (flat == 1 && through == 0.0)
+      error(path + ".velocity", "what comes in through a face needs a velocity away from it");
+    if (!i.mass_rate) error(path + ".volume", "through a face particles come at a mass_rate");
+  }
   void check_drawn(const InsertionSetup& i, const std::string& path) {
     const SizeSetup& size = i.size;
     if (size.kind == SizeKind::single && !(size.radius > 0.0) && good(path + ".size.radius"))
@@ -207,6 +222,10 @@ class Checker {
     const double R = simulation::largest_radius(size);
     const VolumeSetup& v = i.volume;
     const Vec3 e = v.high - v.low;
+    if (v.shape == VolumeShape::face) {
+      check_face(i, path);
+      return;
+    }
     const bool fits = v.shape == VolumeShape::box ? std::min({e.x, e.y, e.z}) >= 2.0 * R
                                                   : v.radius >= R && norm(v.top - v.base) >= 2.0 * R;
     if (!fits)

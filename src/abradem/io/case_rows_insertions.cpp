@@ -12,7 +12,8 @@ using namespace std::string_view_literals;
 
 // In the order of the enumerations of setup.h.
 constexpr std::array kSizes{"single"sv, "uniform"sv, "normal"sv, "lognormal"sv, "table"sv};
-constexpr std::array kVolumes{"box"sv, "cylinder"sv, "file"sv};
+constexpr std::array kVolumes{"box"sv, "cylinder"sv, "file"sv, "face"sv};
+constexpr std::array kPeriodic{"none"sv, "x"sv, "y"sv, "z"sv, "xy"sv, "xz"sv, "yz"sv, "xyz"sv};
 constexpr std::array kOutside{"remove"sv, "stop"sv};
 
 constexpr std::array kFile{"file"sv};
@@ -20,7 +21,7 @@ constexpr std::array kSingle{"single"sv};
 constexpr std::array kNormalSizes{"normal"sv, "lognormal"sv};
 constexpr std::array kBoundedSizes{"uniform"sv, "normal"sv, "lognormal"sv};
 constexpr std::array kTableOfSizes{"table"sv};
-constexpr std::array kBox{"box"sv};
+constexpr std::array kBox{"box"sv, "face"sv};
 constexpr std::array kCylinder{"cylinder"sv};
 
 const std::array kRows{
@@ -137,7 +138,8 @@ const std::array kRows{
         .slot = ABRADEM_CHOICE(insertion->volume.shape),
         .choices = kVolumes,
         .example = "\"box\"",
-        .doc = "A box, a cylinder, or a file that gives the place of every sphere."},
+        .doc = "A box, a cylinder, a file that gives the place of every sphere, or a face: a box without "
+               "thickness in one direction, through which spheres come at a mass_rate."},
     Row{.section = "insertion.*.volume",
         .key = "low",
         .kind = Kind::vector,
@@ -211,6 +213,15 @@ const std::array kRows{
         .doc = "What becomes of a particle whose centre leaves the box: it is taken out and counted "
                "(remove), or the "
                "run stops. Looked at whenever the list of neighbours is made anew."},
+    Row{.section = "domain",
+        .key = "periodic",
+        .kind = Kind::choice,
+        .need = Need::has_default,
+        .slot = ABRADEM_CHOICE(setup->domain->periodic),
+        .choices = kPeriodic,
+        .example = "\"xy\"",
+        .doc = "Axes along which what leaves the box comes in again on the other side. Walls do not repeat "
+               "themselves: let them reach beyond the box by a diameter."},
 };
 
 }  // namespace

@@ -18,16 +18,35 @@ std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 constexpr double kSkin = 0.2;     // of the mean radius
 constexpr double kFastest = 0.1;  // of the radius in one step: a faster one may pass through a wall
 
-bool outside(const DomainSetup& d, const Vec3& p) noexcept {
-  return !(p.x >= d.low.x && p.y >= d.low.y && p.z >= d.low.z && p.x <= d.high.x && p.y <= d.high.y &&
-           p.z <= d.high.z);
+/// Lengths after which space repeats itself; 0 along open axes.
+Vec3 period_of(const std::optional<DomainSetup>& d) noexcept {
+  if (!d) return {};
+  const auto along = [&](Periodic a, Periodic b, Periodic c, double length) {
+    const Periodic p = d->periodic;
+    return p == a || p == b || p == c || p == Periodic::xyz ? length : 0.0;
+  };
+  const Vec3 e = d->high - d->low;
+  return {along(Periodic::x, Periodic::xy, Periodic::xz, e.x),
+          along(Periodic::y, Periodic::xy, Periodic::yz, e.y),
+          along(Periodic::z, Periodic::xz, Periodic::yz, e.z)};
+}
+
+bool outside(const DomainSetup& d, const Vec3& period, const Vec3& p) noexcept {
+  const auto within = [](double x, double low, double high, double L) {
+    return L > 0.0 || (x >= low && x <= high);
+  };
+  return !(within(p.x, d.low.x, d.high.x, period.x) && within(p.y, d.low.y, d.high.y, period.y) &&
+           within(p.z, d.low.z, d.high.z, period.z));
 }
 
 }  // namespace
 
 Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
            const std::vector<material::PairProperties>& properties, const Particles& named)
-    : walls_(setup.walls.size()), domain_(setup.domain), names_(named.name) {
+    : walls_(setup.walls.size()),
+      domain_(setup.domain),
+      period_(period_of(setup.domain)),
+      names_(named.name) {
   table_.materials = materials.size();
   bool remembers_torques = false;
   for (const material::PairProperties& p : properties) {
@@ -48,6 +67,11 @@ Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
     spheres_.id.push_back(next_id_++);
   }
   named_ = next_id_;
+  if (period_ != Vec3{}) {
+    if (named_ > 0)
+      throw InputError("a periodic [domain] is for particles in numbers; leave out the named ones");
+    list_.make_periodic(domain_->low, period_);
+  }
   for (std::size_t k = 0; k < setup.insertions.size(); ++k) {
     const InsertionSetup& insertion = setup.insertions[k];
     const auto material = std::ranges::find(setup.materials, insertion.material, &MaterialSetup::name);
@@ -62,7 +86,7 @@ Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
 void Bulk::take_in(double time) {
   for (Inserter& inserter : inserters_) {
     if (!inserter.wants(time)) continue;
-    for (const contact::SphereRow& s : inserter.insert(time, spheres_)) {
+    for (const contact::SphereRow& s : inserter.insert(time, spheres_, period_)) {
       spheres_.row.push_back(s);
       spheres_.id.push_back(next_id_++);
       worn_out_ = true;
@@ -74,7 +98,7 @@ void Bulk::take_out() {
   if (!domain_) return;
   for (std::size_t i = 0; i < spheres_.size(); ++i) {
     const contact::SphereRow& s = spheres_.row[i];
-    if (spheres_.id[i] < named_ || !outside(*domain_, s.position())) continue;
+    if (spheres_.id[i] < named_ || !outside(*domain_, period_, s.position())) continue;
     if (domain_->outside == Outside::stop)
       throw SimulationError(
           fmt::format("particle {} has left the domain at ({:.6g}, {:.6g}, {:.6g}) m with {:.4g} m/s. "
@@ -117,6 +141,7 @@ void Bulk::find_contacts(const Surroundings& around, const Particles& named, std
     double sum = 0.0;
     for (const contact::SphereRow& s : spheres_.row) sum += s.radius;
     skin_ = spheres_.size() > 0 ? kSkin * sum / static_cast<double>(spheres_.size()) : 0.0;
+    check_periods();
     if (table_.adhesion) skin_ = std::max(skin_, 2.0 * longest_stretch());
     list_.rebuild(spheres_, skin_);
     walls_.rebuild(spheres_, around, skin_, named_, paper);
@@ -127,6 +152,19 @@ void Bulk::find_contacts(const Surroundings& around, const Particles& named, std
     if (first) fetch_named(named);
   }
   walls_.find(spheres_, around, travelled_ + walls_.fastest_wall() * wall_time_);
+}
+
+void Bulk::check_periods() const {
+  if (period_ == Vec3{}) return;
+  double largest = 0.0;
+  for (const contact::SphereRow& s : spheres_.row) largest = std::max(largest, s.radius);
+  const double least = 3.0 * (2.0 * largest + skin_ + 2.0 * longest_stretch());
+  for (const double length : {period_.x, period_.y, period_.z})
+    if (length > 0.0 && length < least)
+      throw InputError(
+          fmt::format("the [domain] repeats itself after {:.4g} mm; with these particles it must be "
+                      "at least {:.4g} mm, three of them and a margin",
+                      1e3 * length, 1e3 * least));
 }
 
 /// How far any contact can be drawn out before it snaps [m].
@@ -170,7 +208,7 @@ void Bulk::check(const Surroundings& around, std::uint64_t step) const {
   if (sound_) return;  // only a copy of a named one: it is looked at with its own kind
   for (std::size_t k = 0; k < list_.pairs(); ++k) {
     const contact::SphereRow &i = spheres_.row[at(list_.owner[k])], &j = spheres_.row[at(list_.partner[k])];
-    const double overlap = i.radius + j.radius - norm(i.position() - j.position());
+    const double overlap = i.radius + j.radius - norm(i.position() - j.position() + list_.shift(k));
     // Positions are one step on, so what was a hair too deep may no longer be.
     if (overlap > 0.95 * contact::kDeepest * i.radius * j.radius / (i.radius + j.radius))
       fail(at(list_.owner[k]),
@@ -220,7 +258,8 @@ BulkState Bulk::state(const std::vector<material::PairProperties>& properties) c
   state.fastest = std::sqrt(state.fastest);
   for (std::size_t k = 0; k < list_.pairs(); ++k) {
     const contact::SphereRow &i = spheres_.row[at(list_.owner[k])], &j = spheres_.row[at(list_.partner[k])];
-    const double reach = i.radius + j.radius, overlap = reach - norm(i.position() - j.position());
+    const double reach = i.radius + j.radius,
+                 overlap = reach - norm(i.position() - j.position() + list_.shift(k));
     if (overlap <= 0.0) continue;
     ++state.pair_contacts;
     const auto& pair = properties[static_cast<std::size_t>(i.material) * table_.materials +
@@ -247,7 +286,9 @@ bool Bulk::restore(const Surroundings& around) {
   find_named();
   for (std::size_t p = 0; p < place_of_named_.size(); ++p)
     if (spheres_.size() == 0 || at(spheres_.id[place_of_named_[p]]) != p) return false;
-  return list_.restore(spheres_.size()) && walls_.restore(spheres_, around);
+  if (!list_.restore(spheres_.size())) return false;
+  list_.name_images(spheres_);
+  return walls_.restore(spheres_, around);
 }
 
 void Bulk::add_to(core::StateHash& hash) const {

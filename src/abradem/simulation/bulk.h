@@ -73,6 +73,7 @@ class Bulk {
  private:
   void take_in(double time);
   [[nodiscard]] double longest_stretch() const;
+  void check_periods() const;
   void take_out();
   [[nodiscard]] std::string title(std::size_t i) const;
   void find_named();
@@ -87,6 +88,7 @@ class Bulk {
   BulkWalls walls_;
   std::vector<Inserter> inserters_;
   std::optional<DomainSetup> domain_;
+  Vec3 period_;  // 0 along open axes
   std::vector<std::size_t> place_of_named_;
   std::vector<std::string> names_;
   std::int32_t named_ = 0, next_id_ = 0;

@@ -73,7 +73,7 @@ class Occupancy {
 
 /// The volume's bounding box.
 geometry::BoundingBox box_of(const VolumeSetup& v) {
-  if (v.shape == VolumeShape::box) return {v.low, v.high};
+  if (v.shape != VolumeShape::cylinder) return {v.low, v.high};
   const Vec3 axis = normalized(v.top - v.base);
   const auto across = [&](double a) { return v.radius * std::sqrt(std::max(0.0, 1.0 - a * a)); };
   const Vec3 r{across(axis.x), across(axis.y), across(axis.z)};
@@ -159,8 +159,12 @@ void Inserter::draw_next() { radius_ = draw_radius(setup_.size, random_); }
 
 Vec3 Inserter::draw_place(double radius) {
   const VolumeSetup& v = setup_.volume;
-  if (v.shape == VolumeShape::box) {
-    const Vec3 r{radius, radius, radius}, low = v.low + r, high = v.high - r;
+  if (v.shape != VolumeShape::cylinder) {
+    const auto margin = [&](double low, double high) {
+      return high > low ? radius : 0.0;
+    };  // on a face: none
+    const Vec3 r{margin(v.low.x, v.high.x), margin(v.low.y, v.high.y), margin(v.low.z, v.high.z)},
+        low = v.low + r, high = v.high - r;
     const double x = random_.uniform(low.x, high.x), y = random_.uniform(low.y, high.y);
     return {x, y, random_.uniform(low.z, high.z)};
   }
@@ -178,7 +182,8 @@ bool Inserter::due(double time, double next_mass) const noexcept {
   return !setup_.mass_rate || mass_ + next_mass <= *setup_.mass_rate * (time - setup_.start);
 }
 
-std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Spheres& present) {
+std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Spheres& present,
+                                                 const Vec3& period) {
   std::vector<contact::SphereRow> made;
   const auto make = [&](const Vec3& p, double R, const Vec3& v) {
     contact::SphereRow s;
@@ -199,12 +204,21 @@ std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Sph
   const double largest = largest_radius(setup_.size);
   const geometry::BoundingBox box = box_of(setup_.volume);
   Occupancy occupancy(largest);
-  for (const contact::SphereRow& s : present.row) {
-    const double R = s.radius;
-    if (s.x > box.low.x - R && s.y > box.low.y - R && s.z > box.low.z - R && s.x < box.high.x + R &&
-        s.y < box.high.y + R && s.z < box.high.z + R)
-      occupancy.add(s.position(), R);
-  }
+  const double beyond =
+      setup_.volume.shape == VolumeShape::face ? largest : 0.0;  // bodies lie inside, but of a face
+  const auto add = [&](const Vec3& centre, double R) {           // and its images
+    const auto count = [](double length) { return length > 0.0 ? 1 : 0; };
+    for (int i = -count(period.x); i <= count(period.x); ++i)
+      for (int j = -count(period.y); j <= count(period.y); ++j)
+        for (int k = -count(period.z); k <= count(period.z); ++k) {
+          const Vec3 p = centre + Vec3{i * period.x, j * period.y, k * period.z};
+          const double r = R + beyond;
+          if (p.x > box.low.x - r && p.y > box.low.y - r && p.z > box.low.z - r && p.x < box.high.x + r &&
+              p.y < box.high.y + r && p.z < box.high.z + r)
+            occupancy.add(p, R);
+        }
+  };
+  for (const contact::SphereRow& s : present.row) add(s.position(), s.radius);
   waiting_ = false;
   while (!waiting_ && due(time, mass_of(radius_, density_))) {
     // Finds a gap of a 1/5000 of the volume nearly always; at a rate there will be another try soon.
@@ -212,7 +226,7 @@ std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Sph
     waiting_ = true;
     for (int k = 0; k < tries && waiting_; ++k)
       if (const Vec3 p = draw_place(radius_); occupancy.is_free(p, radius_)) {
-        occupancy.add(p, radius_);
+        add(p, radius_);
         make(p, radius_, setup_.velocity);
         draw_next();
         waiting_ = false;

@@ -28,7 +28,9 @@ class Inserter {
 
   /// Spheres that are due by a time and find a place. Call at steps where `wants` says so.
   /// @throws InputError at time 0 when those to be inserted at once do not all find a place
-  [[nodiscard]] std::vector<contact::SphereRow> insert(double time, const contact::Spheres& present);
+  /// @param period lengths after which space repeats itself; 0 along open axes [m]
+  [[nodiscard]] std::vector<contact::SphereRow> insert(double time, const contact::Spheres& present,
+                                                       const Vec3& period = {});
   [[nodiscard]] bool wants(double time) const noexcept { return time >= next_; }
 
   [[nodiscard]] const InsertionSetup& setup() const noexcept { return setup_; }

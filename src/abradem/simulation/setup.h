@@ -137,11 +137,11 @@ struct SizeSetup {
   bool operator==(const SizeSetup&) const = default;
 };
 
-enum class VolumeShape { box, cylinder, file };
+enum class VolumeShape { box, cylinder, file, face };
 /// Where spheres are put: their whole bodies lie inside.
 struct VolumeSetup {
   VolumeShape shape = VolumeShape::box;
-  Vec3 low, high;       ///< box [m]
+  Vec3 low, high;       ///< box; face: a box without thickness, on which the centres lie [m]
   Vec3 base, top;       ///< cylinder: centres of its ends [m]
   double radius = 0.0;  ///< cylinder [m]
   std::string file;     ///< file: CSV with a place for every sphere, absolute
@@ -177,10 +177,13 @@ struct InsertionSetup {
 };
 
 enum class Outside { remove, stop };
+/// Axes along which what leaves a box comes in again on the other side.
+enum class Periodic { none, x, y, z, xy, xz, yz, xyz };
 /// What becomes of particles in numbers that leave a box.
 struct DomainSetup {
   Vec3 low, high;  ///< [m]
   Outside outside = Outside::remove;
+  Periodic periodic = Periodic::none;
   bool operator==(const DomainSetup&) const = default;
 };
 
