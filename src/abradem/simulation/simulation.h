@@ -202,10 +202,16 @@ class Simulation {
   [[nodiscard]] double slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept;
   void book_elements();
   void limit_energies();
+  void limit_bulk_energy(Vec3 low, Vec3 high, bool bounded);
   void check_state() const;
   [[nodiscard]] bool ledger_due() const noexcept;
   void check_ledger();
   void watch_stability();
+  /// Parts of the limits that the spheres of an insertion reach.
+  struct InsertionLimits {
+    double rayleigh = 0.0, hertz = 0.0, number = 0.0;
+  };
+  [[nodiscard]] InsertionLimits limits_of(const InsertionSetup& insertion) const;
 
   Setup setup_;
   std::vector<material::Material> materials_;
