@@ -83,6 +83,7 @@ class BulkWalls {
   std::vector<double> odometer_;                   // of each wall's wear at the rebuild [m]
   std::vector<double> unplaced_;                   // on each wall, ploughed by contacts that are gone [m^3]
   std::vector<contact::PairConstants> constants_;  // walls x materials
+  bool options_ = false;                           // has any of them
   double fastest_wall_ = 0.0, next_removal_ = std::numeric_limits<double>::infinity();
 };
 
