@@ -146,6 +146,7 @@ void BulkWalls::list_meshes(const contact::Spheres& spheres, const Surroundings&
     Wall& wall = around.walls[at(gone.wall)];
     paper[at(gone.wall)] += gone.contact->take_centroid_volume(wall);
     gone.contact->book_elements(wall);
+    unplaced_[at(gone.wall)] += gone.contact->unpiled_volume();
   }
 }
 

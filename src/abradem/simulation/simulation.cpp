@@ -163,8 +163,6 @@ double Simulation::groove_coefficient(int abrader, int worn) const {
 
 void Simulation::check_ploughing() const {
   if (!setup_.ploughing) return;
-  if (!setup_.insertions.empty() && ploughs())
-    throw InputError("[ploughing] piles up what named particles displace; with an [insertion] leave it out");
   const PloughingSetup& p = *setup_.ploughing;
   if (!(p.removed_fraction >= 0.0 && p.removed_fraction <= 1.0))
     throw InputError(
