@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "abradem/contact/full_law.h"
 #include "abradem/core/error.h"
 
 namespace abradem::simulation {
@@ -28,10 +29,15 @@ Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
            const std::vector<material::PairProperties>& properties, const Particles& named)
     : walls_(setup.walls.size()), domain_(setup.domain), names_(named.name) {
   table_.materials = materials.size();
+  bool remembers_torques = false;
   for (const material::PairProperties& p : properties) {
     table_.pair.push_back(contact::PairConstants::of(p));
     table_.rolling = table_.rolling || p.rolling_friction > 0.0;
+    table_.options = table_.options || p.options.any();
+    table_.adhesion = table_.adhesion || p.options.adhesion > 0.0;
+    remembers_torques = remembers_torques || p.options.rolling_spring || p.options.torsion;
   }
+  if (remembers_torques) list_.remember_torques();
   for (std::size_t p = 0; p < named.size(); ++p) {
     contact::SphereRow s;
     s.set_position(named.position[p]);
@@ -111,6 +117,7 @@ void Bulk::find_contacts(const Surroundings& around, const Particles& named, std
     double sum = 0.0;
     for (const contact::SphereRow& s : spheres_.row) sum += s.radius;
     skin_ = spheres_.size() > 0 ? kSkin * sum / static_cast<double>(spheres_.size()) : 0.0;
+    if (table_.adhesion) skin_ = std::max(skin_, 2.0 * longest_stretch());
     list_.rebuild(spheres_, skin_);
     walls_.rebuild(spheres_, around, skin_, named_, paper);
     find_named();
@@ -120,6 +127,15 @@ void Bulk::find_contacts(const Surroundings& around, const Particles& named, std
     if (first) fetch_named(named);
   }
   walls_.find(spheres_, around, travelled_ + walls_.fastest_wall() * wall_time_);
+}
+
+/// How far any contact can be drawn out before it snaps [m].
+double Bulk::longest_stretch() const {
+  double largest = 0.0, stretch = 0.0;
+  for (const contact::SphereRow& s : spheres_.row) largest = std::max(largest, s.radius);
+  for (const contact::PairConstants& p : table_.pair)
+    stretch = std::max(stretch, contact::stretch_at_snap(p, largest));
+  return stretch;
 }
 
 void Bulk::compute_forces(const Surroundings& around, Particles& named) {
@@ -261,7 +277,10 @@ BulkState Bulk::state(const std::vector<material::PairProperties>& properties) c
     ++state.pair_contacts;
     const auto& pair = properties[static_cast<std::size_t>(i.material) * table_.materials +
                                   static_cast<std::size_t>(j.material)];
-    state.elastic_energy += 0.4 * overlap * contact::hertz_force(pair, i.radius * j.radius / reach, overlap);
+    state.elastic_energy +=
+        pair.options.linear()
+            ? 0.5 * pair.options.normal_stiffness * overlap * overlap
+            : 0.4 * overlap * contact::hertz_force(pair, i.radius * j.radius / reach, overlap);
   }
   state.wall_contacts = walls_.contacts();
   return state;
@@ -294,8 +313,12 @@ void Bulk::add_to(core::StateHash& hash) const {
   }
   for (std::size_t k = 0; k < list_.pairs(); ++k)
     if (list_.touching[k] != 0) hash.add(Vec3{list_.spring[k].x, list_.spring[k].y, list_.spring[k].z});
+  for (const contact::SpringRow& t : list_.torque) hash.add(Vec3{t.x, t.y, t.z}), hash.add(t.twist);
   for (const contact::PlaneList& plane : walls_.planes())
     for (const contact::SpringRow& s : plane.spring) hash.add(Vec3{s.x, s.y, s.z});
+  if (table_.options)
+    for (const contact::PlaneList& plane : walls_.planes())
+      for (const contact::SpringRow& t : plane.torque) hash.add(Vec3{t.x, t.y, t.z}), hash.add(t.twist);
   for (const BulkWalls::NearMesh& m : walls_.meshes()) m.contact->add_to(hash);
 }
 

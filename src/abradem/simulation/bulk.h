@@ -20,7 +20,7 @@ struct BulkState {
   double mass = 0.0, removed_mass = 0.0;  ///< [kg]
   std::uint64_t pair_contacts = 0, wall_contacts = 0;
   double kinetic_energy = 0.0;  ///< [J]
-  double elastic_energy = 0.0;  ///< normal, among the spheres [J]
+  double elastic_energy = 0.0;  ///< normal, among the spheres; without adhesion and cohesion [J]
   double fastest = 0.0;         ///< [m/s]
 };
 
@@ -80,6 +80,7 @@ class Bulk {
 
  private:
   void take_in(double time);
+  [[nodiscard]] double longest_stretch() const;
   void take_out();
   [[nodiscard]] std::string title(std::size_t i) const;
   void find_named();

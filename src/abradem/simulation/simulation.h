@@ -171,7 +171,12 @@ class Simulation {
   /// Volume that leaves the groove per force and sliding distance [1/Pa].
   [[nodiscard]] double groove_coefficient(int abrader, int worn) const;
   void wear_tip(std::size_t p, std::size_t w);
-  void plough(std::size_t p, std::size_t w, double groove_volume);
+  struct SlidingSphere {
+    Vec3 x, v;  // [m], [m/s]
+    double R;   // [m]
+    int material;
+  };
+  void plough(SphereWall& contact, std::size_t w, const SlidingSphere& sphere, double groove_volume);
   [[nodiscard]] bool output_due() const noexcept {
     return (steps_ + 1) % steps_per_output_ == 0 || steps_ + 1 >= total_steps_;
   }

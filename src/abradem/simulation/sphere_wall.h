@@ -204,6 +204,10 @@ class SphereWall {
                       const contact::PairProperties& pair);
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
   contact::TangentialHistory& recall(const Touch& touch, ContactRule rule);
+  [[nodiscard]] bool sticking(const Vec3& n) const noexcept;
+  bool compute_with_options(Touch& touch, const Vec3& v, const SphereState& sphere, const Vec3& spin,
+                            const contact::PairProperties& pair, double dt,
+                            contact::TangentialHistory& history, Vec3& torque) const;
   void add_centroid_motion(const Wall& wall);
   void note_nodes();
   [[nodiscard]] bool inside(std::size_t t) const noexcept;

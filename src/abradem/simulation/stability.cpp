@@ -34,9 +34,9 @@ void Simulation::watch_stability() {
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       const auto& properties = pair(particles_.material[p], walls_[w].material());
       for (const SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches()) {
-        const double S = contact::normal_stiffness(properties, t.a);
+        const double S = contact::step_stiffness(properties, t.a);
         stiffness += S;
-        damping += contact::damping_coefficient(properties, S, particles_.mass[p]);
+        damping += contact::step_damping(properties, S, particles_.mass[p]);
         ++contacts;
       }
     }
@@ -103,10 +103,10 @@ std::vector<StabilityLimit> Simulation::limits() const {
       const double given = norm(setup_.particles[p].velocity);
       const double speed = given > 0.0 ? given : std::sqrt(2.0 * load * overlap / mass);
       if (speed > 0.0) hertz = std::max(hertz, dt_ / material::hertz_time(properties.E_eff, R, mass, speed));
-      const double S = contact::normal_stiffness(properties, contact::contact_radius(R, overlap));
+      const double S = contact::step_stiffness(properties, contact::contact_radius(R, overlap));
       if (steps_ == 0)
-        number = std::max(
-            number, scheme_of(S, contact::damping_coefficient(properties, S, mass), mass, dt_).number());
+        number =
+            std::max(number, scheme_of(S, contact::step_damping(properties, S, mass), mass, dt_).number());
     }
   }
   for (const InsertionSetup& i : setup_.insertions) {

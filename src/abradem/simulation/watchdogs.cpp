@@ -80,14 +80,18 @@ void Simulation::limit_energies() {
     double hit = start;
     for (const Wall& wall : walls_) hit = std::max(hit, 2.0 * fastest(wall.setup().motion, extent));
     energy_limit_[p] = kExplosion * (0.5 * m * hit * hit + force * way);
-    double elastic = 0.0;  // of a particle that starts as deep in a wall as it may
-    for (const Wall& wall : walls_) {
-      const double overlap = kDeepest * R;
-      elastic = std::max(
-          elastic,
-          0.4 * overlap * contact::hertz_force(pair(particles_.material[p], wall.material()), R, overlap));
-    }
-    energy_limit_[p] += elastic;
+    double stored = 0.0;  // in a contact that starts as deep as it may, or is drawn together so far
+    const auto contact_with = [&](int material) {
+      const contact::PairProperties& c = pair(particles_.material[p], material);
+      const double overlap = kDeepest * R, area = 2.0 * std::numbers::pi * R * overlap;
+      const double cohesive = (c.options.cohesion * overlap + c.options.adhesion) * area;
+      stored = std::max(stored, 0.4 * overlap * contact::hertz_force(c, R, overlap) + cohesive);
+    };
+    for (const Wall& wall : walls_) contact_with(wall.material());
+    for (std::size_t q = 0; q < particles_.size(); ++q)
+      if (q != p && pair(particles_.material[p], particles_.material[q]).options.any())
+        contact_with(particles_.material[q]);
+    energy_limit_[p] += stored;
   }
   // Particles hand on their energies to one another.
   double whole = 0.0;
