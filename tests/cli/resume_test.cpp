@@ -214,12 +214,11 @@ TEST(Resume, GoesOnPastTheEnd) {
   expect_same(scratch.path() / "whole", scratch.path() / "short");
 }
 
-/// Particles in numbers, of sizes and from places in files that are gone when the run is taken up.
-TEST(Resume, OfParticlesInNumbersGoesOnPastTheEnd) {
-  const ScratchFolder scratch;
-  write_file(scratch.path() / "sizes.csv", "radius_mm,share\n0.8,1\n1.1,2\n");
-  write_file(scratch.path() / "places.csv", "x_mm,y_mm,z_mm,radius_mm\n0,0,1.4,1.5\n4,1,2,1\n-4,2,1.2,1.2\n");
-  write_file(scratch.path() / "feed.toml", R"(schema = 1
+/// A case of particles in numbers, of sizes and from places in files.
+void write_feed(const fs::path& folder) {
+  write_file(folder / "sizes.csv", "radius_mm,share\n0.8,1\n1.1,2\n");
+  write_file(folder / "places.csv", "x_mm,y_mm,z_mm,radius_mm\n0,0,1.4,1.5\n4,1,2,1\n-4,2,1.2,1.2\n");
+  write_file(folder / "feed.toml", R"(schema = 1
 [material.glass]
 density = 2500
 shear_modulus = "10 MPa"
@@ -253,6 +252,12 @@ gravity = [0, 0, "-9.81 m/s^2"]
 [output]
 every = "10 ms"
 )");
+}
+
+/// The files of sizes and places are gone when the run is taken up.
+TEST(Resume, OfParticlesInNumbersGoesOnPastTheEnd) {
+  const ScratchFolder scratch;
+  write_feed(scratch.path());
   const std::string run = "run feed.toml --quiet --no-report --threads 1";
   ASSERT_EQ(run_program(run + " -o whole", scratch.path()).exit_code, 0);
   ASSERT_EQ(run_program(run + " --set run.end='17 ms' -o short", scratch.path()).exit_code, 0);
@@ -265,6 +270,35 @@ every = "10 ms"
   const io::CsvTable table = io::read_csv(scratch.path() / "short" / "tables" / "particles.csv");
   EXPECT_EQ(table.rows(), 4U);
   EXPECT_GT(table.column("inserted").back(), 50.0);
+}
+
+TEST(Resume, OfParticlesInNumbersAfterKillsGivesTheSameBits) {
+  core::RandomStream random(21, 1);
+  const ScratchFolder scratch;
+  write_feed(scratch.path());
+  const std::string run = "run feed.toml --quiet --no-report --threads 1 --set run.end='0.1 s'" + kOften;
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(run_program(run + " -o whole", scratch.path()).exit_code, 0);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  int kills = 0;
+  for (int k = 0; k < 4; ++k) {
+    const std::string name = "cut" + std::to_string(k);
+    const auto command = [&] {
+      return fs::exists(scratch.path() / name / "case.resolved.toml")
+                 ? "resume " + name + " --quiet --no-report --threads 2"
+                 : run + " --force -o " + name;
+    };
+    for (int part = 0; part < 2; ++part) {
+      Running running(command(), scratch.path());
+      std::this_thread::sleep_for(std::chrono::duration<double>(random.uniform(0.1, 0.6) * seconds));
+      kills += running.end(SIGKILL) == 1000 + SIGKILL;
+      expect_valid(scratch.path() / name, true);
+    }
+    const Outcome rest = run_program(command(), scratch.path());
+    ASSERT_EQ(rest.exit_code, 0) << rest.err;
+    expect_same(scratch.path() / "whole", scratch.path() / name);
+  }
+  EXPECT_GT(kills, 4);
 }
 
 TEST(Checkpoint, IsWrittenWhenAskedForAndTheRunGoesOn) {

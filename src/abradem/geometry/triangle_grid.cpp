@@ -88,7 +88,8 @@ Rows TriangleGrid::bin(Index items, CellsOf&& cells_of_item) const {
 TriangleGrid::CellRange TriangleGrid::cells_of(const Vec3& low, const Vec3& high) const noexcept {
   const auto cell = [this](double x, double origin, std::int32_t count) {
     const double c = std::floor((x - origin) / cell_);
-    return static_cast<std::int32_t>(std::clamp(c, 0.0, static_cast<double>(count - 1)));
+    // What is no number goes to the first cell: the state it comes from is refused later in the step.
+    return static_cast<std::int32_t>(c > 0.0 ? std::min(c, static_cast<double>(count - 1)) : 0.0);
   };
   return {{cell(low.x, origin_.x, count_[0]), cell(low.y, origin_.y, count_[1]),
            cell(low.z, origin_.z, count_[2])},

@@ -327,11 +327,12 @@ BulkState Bulk::state(const std::vector<material::PairProperties>& properties) c
 
 bool Bulk::restore(const Surroundings& around) {
   if (spheres_.id.size() != spheres_.size()) return false;
+  if (!std::ranges::all_of(inserters_, [](const Inserter& i) { return i.restored(); })) return false;
   for (std::size_t i = 0; i < spheres_.size(); ++i) {
     const contact::SphereRow& s = spheres_.row[i];
     const bool sound = is_finite(s.position()) && is_finite(s.velocity()) && is_finite(s.spin()) &&
-                       s.radius > 0.0 && s.inverse_mass > 0.0 && s.material >= 0.0 &&
-                       s.material < static_cast<double>(around.materials);
+                       s.radius > 0.0 && std::isfinite(s.radius) && s.inverse_mass > 0.0 &&
+                       s.material >= 0.0 && s.material < static_cast<double>(around.materials);
     if (!sound || spheres_.id[i] < 0 || spheres_.id[i] >= next_id_) return false;
   }
   if (worn_out_) return walls_.meshes().empty();  // everything else will be made anew

@@ -31,8 +31,9 @@ struct Link {
 
 Link link_of(const contact::PairConstants& pair, double a, double m_eff, double dt) noexcept {
   Link link;
-  link.damping = pair.damping_n * std::sqrt(a * m_eff) * dt;
-  link.stiffness = pair.normal * a * dt * dt;
+  const double S = pair.options.linear() ? pair.options.normal_stiffness : pair.normal * a;
+  link.damping = pair.damping * std::sqrt(S * m_eff) * dt;
+  link.stiffness = S * dt * dt;
   return link;
 }
 

@@ -173,6 +173,12 @@ Vec3 Inserter::draw_place(double radius) {
   return v.base + along * axis + out * (std::cos(angle) * side + std::sin(angle) * cross(axis, side));
 }
 
+bool Inserter::restored() const noexcept {
+  const bool drawn = !setup_.placed.empty() ||
+                     (radius_ >= smallest_radius(setup_.size) && radius_ <= largest_radius(setup_.size));
+  return drawn && mass_ >= 0.0 && std::isfinite(mass_) && next_ >= 0.0;
+}
+
 bool Inserter::due(double time, double next_mass) const noexcept {
   if (!setup_.placed.empty()) return inserted_ < setup_.placed.size();
   if (setup_.number > 0 && inserted_ >= setup_.number) return false;

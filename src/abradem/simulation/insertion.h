@@ -50,6 +50,8 @@ class Inserter {
     archive("random", self.random_)("radius", self.radius_)("next", self.next_)("mass", self.mass_);
     archive("inserted", self.inserted_)("waiting", self.waiting_);
   }
+  /// @return whether what was loaded can be of this insertion
+  [[nodiscard]] bool restored() const noexcept;
 
  private:
   [[nodiscard]] bool due(double time, double next_mass) const noexcept;

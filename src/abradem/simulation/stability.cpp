@@ -78,8 +78,8 @@ Simulation::InsertionLimits Simulation::limits_of(const InsertionSetup& i) const
     // Where all of m v^2 / 2 is in the contact: (8/15) E sqrt(R) overlap^(5/2).
     const double overlap =
         std::pow(15.0 * m_eff * speed * speed / (16.0 * properties.E_eff * std::sqrt(R_eff)), 0.4);
-    const double S = contact::normal_stiffness(properties, contact::contact_radius(R_eff, overlap));
-    const double c = contact::damping_coefficient(properties, S, m_eff);
+    const double S = contact::step_stiffness(properties, contact::contact_radius(R_eff, overlap));
+    const double c = contact::step_damping(properties, S, m_eff);
     limits.number = std::max(limits.number, scheme_of(S, c, m_eff, dt_).number());
   };
   for (const InsertionSetup& other : setup_.insertions)
