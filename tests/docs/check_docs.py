@@ -9,8 +9,10 @@ The rules: every relative link of a Markdown file leads to a file or folder, and
 docs/… page that the code points to exists, with the heading; the headings of the step in docs/architecture.md
 are the functions that Simulation::step calls, in order; the two commands of the README exist and, with
 PROGRAM given, the first of them passes --dry-run; the columns of wear.csv and the other tables are those that
-docs/reference/output.md describes.
+docs/reference/output.md describes; every promise of docs/reliability.md names a test, and every test it names
+exists.
 """
+import fnmatch
 import pathlib
 import re
 import subprocess
@@ -20,6 +22,10 @@ import tempfile
 LINK = re.compile(r"(?<!\\)\[[^\]]*\]\(([^)\s]+)(?:\s+\"[^\"]*\")?\)")
 POINTER = re.compile(r"\bdocs/[A-Za-z0-9_/-]+\.md(?:#[A-Za-z0-9_-]+)?")
 COLUMN = re.compile(r'"([a-z][A-Za-z0-9_]*_(?:mm|mm2|mm3|um|N|s|deg|chi2)|element|contacts|revolution)"')
+TEST = re.compile(r"^TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\s*\)", re.MULTILINE)
+INSTANCE = re.compile(r"^INSTANTIATE_TEST_SUITE_P\(\s*(\w+),\s*(\w+)", re.MULTILINE)
+CTEST = re.compile(r"\badd_test\(NAME ([\w.]+) ")
+TEST_NAME = re.compile(r"`((?:[A-Z]\w*/)?[A-Z]\w*\.[\w*…]+)`")
 SKIPPED = {".git", "build", "out", "node_modules"}
 
 
@@ -128,10 +134,50 @@ def check_columns(root):
     return breaches if seen > 30 else breaches + [f"src/abradem/io: only {seen} columns found"]
 
 
+def named_tests(root):
+    """The tests of the sources as ctest lists them, without the numbers of parametrised ones; and plain ones."""
+    suites, tests = {}, set()
+    sources = [path.read_text(encoding="utf-8") for path in files(root / "tests", "*.cpp")]
+    for source in sources:
+        for instance, suite in INSTANCE.findall(source):
+            suites.setdefault(suite, set()).add(instance)
+    for source in sources:
+        for suite, test in TEST.findall(source):
+            tests.add(f"{suite}.{test}")
+            tests |= {f"{instance}/{suite}.{test}" for instance in suites.get(suite, ())}
+    plain = {name for path in files(root / "tests", "CMakeLists.txt")
+             for name in CTEST.findall(path.read_text(encoding="utf-8"))}
+    return tests, plain
+
+
+def check_promises(root):
+    """Rows under a header that ends with 'test' name one in their last cell; every name of a test is one's."""
+    page = (root / "docs/reliability.md").read_text(encoding="utf-8")
+    tests, plain = named_tests(root)
+    breaches, promises, promising = [], 0, False
+    for number, line in enumerate(page.splitlines(), 1):
+        where = f"docs/reliability.md:{number}"
+        for name in TEST_NAME.findall(line):
+            if not fnmatch.filter(tests, name.replace("…", "*")):
+                breaches.append(f"{where}: there is no test '{name}'")
+        if not line.startswith("|"):
+            promising = False
+            continue
+        last = line.strip().strip("|").split("|")[-1]
+        if last.strip() == "test":
+            promising = True
+        elif promising and not set(last.strip()) <= set("-: "):
+            promises += 1
+            if not TEST_NAME.search(last) and not plain & set(re.findall(r"`([\w.]+)`", last)):
+                breaches.append(f"{where}: a promise without a test")
+    return breaches if promises else breaches + ["docs/reliability.md: no promises found"]
+
+
 def self_test():
     """One good tree of links and steps, then one breach of each kind."""
     good_step = "void Simulation::step() {\n  move_walls();\n  record();\n}\n"
     good_page = "# A\n## The step\n`move_walls → record`\n### move_walls\n### record\n## End\n"
+    good_promise = "| promise | test |\n|---|---|\n| a | `Run.Goes` |\n| b | `All/Any.R…`, `Run.*` |\n| c | `soak` |\n"
 
     def breaches(check, changes):
         with tempfile.TemporaryDirectory() as folder:
@@ -139,6 +185,8 @@ def self_test():
             tree = {"docs/architecture.md": good_page, "src/abradem/simulation/simulation.cpp": good_step,
                     "docs/a.md": "[x](architecture.md#the-step) `[no](link)` <a id=\"b\"></a>\n",
                     "src/a.h": "// docs/a.md#b\n", "cases/c.toml": "", "abradem": "", "test": "",
+                    "docs/reliability.md": good_promise, "tests/CMakeLists.txt": "add_test(NAME soak COMMAND x)\n",
+                    "tests/a.cpp": "TEST(Run, Goes) {}\nTEST_P(Any, Rule) {}\nINSTANTIATE_TEST_SUITE_P(All, Any)\n",
                     "README.md": "```sh\n./abradem run cases/c.toml  # x\n./test\n```\n"} | changes
             for name, text in tree.items():
                 path = root / name
@@ -152,7 +200,7 @@ def self_test():
         return check_commands(root, None)
 
     cases = [  # check, changes, breaches expected
-        (check_links, {}, 0), (check_pointers, {}, 0), (check_step, {}, 0), (commands, {}, 0),
+        (check_links, {}, 0), (check_pointers, {}, 0), (check_step, {}, 0), (commands, {}, 0), (check_promises, {}, 0),
         (check_links, {"docs/a.md": "[x](nowhere.md)"}, 1),
         (check_links, {"docs/a.md": "[x](architecture.md#nowhere)"}, 1),
         (check_links, {"docs/a.md": "![x](nowhere.png)"}, 1),
@@ -163,6 +211,12 @@ def self_test():
         (check_step, {"src/abradem/simulation/simulation.cpp": good_step.replace("  record();\n", "")}, 2),
         (commands, {"README.md": "```sh\n./abradem run cases/other.toml\n./test\n```\n"}, 1),
         (commands, {"README.md": "```sh\n./test\n```\n"}, 1),
+        (check_promises, {"tests/a.cpp": "TEST_P(Any, Rule) {}\nINSTANTIATE_TEST_SUITE_P(All, Any)\n"}, 2),
+        (check_promises, {"tests/a.cpp": "TEST(Run, Goes) {}\nTEST_P(Any, Rule) {}\n"}, 1),
+        (check_promises, {"tests/CMakeLists.txt": ""}, 1),
+        (check_promises, {"docs/reliability.md": good_promise + "| d | none |\n"}, 1),
+        (check_promises, {"docs/reliability.md": good_promise + "\nSee `Run.Stops`.\n"}, 1),
+        (check_promises, {"docs/reliability.md": "# Nothing\n"}, 1),
     ]
     failures = [f"{check.__name__} {changes}: {found}" for check, changes, expected in cases
                 if len(found := breaches(check, changes)) != expected]
@@ -179,8 +233,8 @@ def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     program = sys.argv[2] if len(sys.argv) == 3 else None
     breaches = (check_links(root) + check_pointers(root) + check_step(root) + check_commands(root, program) +
-                check_columns(root))
-    print("\n".join(breaches) or "links, pointers, step, commands and columns are as the documents say")
+                check_columns(root) + check_promises(root))
+    print("\n".join(breaches) or "links, pointers, step, commands, columns and promises are as the documents say")
     return bool(breaches)
 
 

@@ -16,13 +16,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     (void)io::checkpoint_from(bytes);
   } catch (const Error&) {
   }
-  try {
-    simulation::Simulation run(test::checkpoint_case());
-    core::ArchiveReader archive(bytes);
-    run.load(archive);
-    core::ArchiveWriter again;
-    run.save(again);
-  } catch (const Error&) {
+  for (const simulation::Setup& setup : {test::checkpoint_case(), test::grains_checkpoint_case()}) {
+    try {
+      simulation::Simulation run(setup);
+      core::ArchiveReader archive(bytes);
+      run.load(archive);
+      run.step();
+      core::ArchiveWriter again;
+      run.save(again);
+    } catch (const Error&) {
+    }
   }
   return 0;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "support/cases.h"
+#include "support/grains.h"
 
 namespace {
 
@@ -61,4 +62,5 @@ int main() {
     setup.particles.push_back(ball);
   }
   print("dynamic balls", setup);
+  print("particles in numbers", test::tray());
 }

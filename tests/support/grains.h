@@ -103,6 +103,31 @@ inline double fraction_within(const contact::Spheres& spheres, const Vec3& low, 
   return static_cast<double>(count) / static_cast<double>(filled.size());
 }
 
+/// A layer of 1296 grains on a shaken tray that wears: two blocks of spheres, and enough of them beside a
+/// mesh to be shared out among threads.
+inline simulation::Setup tray() {
+  constexpr double R = 1e-3;
+  constexpr std::size_t kAcross = 36;
+  simulation::Setup setup = grains(0.5, 0.4, 0.0);
+  setup.insertions[0].placed = lattice(kAcross * kAcross, kAcross, R, 2.1 * R, 0.2);
+  setup.wear = {{.abrader = "grain", .worn = "grain", .wear_coefficient = 1e-10}};
+  WallSetup plate;
+  plate.name = "tray";
+  plate.material = "grain";
+  plate.mesh.shape = MeshShape::plate;
+  plate.mesh.length = plate.mesh.width = 90e-3;
+  plate.mesh.size = 6e-3;
+  plate.mesh.position = {38e-3, 38e-3, 0.0};
+  plate.motion.kind = MotionKind::oscillation;
+  plate.motion.amplitude = {0.5e-3, 0.0, 0.2e-3};
+  plate.motion.frequency = 100.0;
+  plate.contact = ContactRule::resolved;
+  setup.walls = {plate, plane("end", {0, 0, 0}, {1, 0, 0})};
+  setup.run.gravity = {0.0, 0.0, -9.81};
+  setup.run.end = setup.output.every = {2e-3, false};
+  return setup;
+}
+
 constexpr double kBedRadius = 3e-3, kBedSide = 16 * 2.06 * kBedRadius;
 
 /// A box with 4096 grains of kBedRadius on a lattice, `stretch` times as high, about to fall on its floor.

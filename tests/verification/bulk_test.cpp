@@ -136,6 +136,29 @@ TEST(Bulk, WearOnAMovingDeformingWallIsAllAccountedForOnAnyNumberOfThreads) {
   omp_set_num_threads(before);
 }
 
+/// Every contact piles up beside itself what it ploughs aside.
+TEST(Bulk, WhatManyGrainsPloughAsideIsAllAccountedForOnAnyNumberOfThreads) {
+  const int before = omp_get_max_threads();
+  std::uint64_t hash = 0;
+  for (const int threads : {1, 2}) {
+    omp_set_num_threads(threads);
+    simulation::Setup setup = shaken_plate();
+    setup.ploughing = PloughingSetup{.removed_fraction = 0.4};
+    Simulation run(setup);
+    while (!run.finished()) run.advance();
+    const Ledger ledger = run.ledger();
+    EXPECT_GT(ledger.law, 0.0);
+    EXPECT_NEAR(ledger.displaced / (ledger.law + ledger.displaced), 0.6, 1e-9);
+    EXPECT_GT(ledger.piled, 0.99 * ledger.displaced);
+    EXPECT_LT(ledger.residual, 1e-9);
+    EXPECT_NEAR(ledger.kappa, 1.0, 1e-9);
+    RecordProperty("residual", std::to_string(1e12 * ledger.residual) + "e-12");
+    if (hash == 0) hash = run.state_hash();
+    EXPECT_EQ(run.state_hash(), hash) << threads << " threads";
+  }
+  omp_set_num_threads(before);
+}
+
 TEST(Bulk, WhatLiesOnAGateFallsFromTheMomentItIsTakenAway) {
   for (const bool mesh : {false, true}) {
     simulation::Setup setup = grains(0.3, 0.3, 0.0);

@@ -132,5 +132,38 @@ INSTANTIATE_TEST_SUITE_P(Ratios, WornPinGroove,
                          testing::Values(WornPin{0.001, 10.3e-6, 0.60e-3}, WornPin{0.002, 9.7e-6, 0.64e-3},
                                          WornPin{0.005, 8.7e-6, 0.71e-3, 0.04}));
 
+/// A flat ten times as long as the first contact: which of its places is the deepest changes all the time.
+TEST(WornPin, GroovesUnderPointContactsAsUnderPatches) {
+  PinOnPlate pin;
+  pin.shear_modulus = 30e9;
+  pin.passes = 8;
+  pin.wear_per_pass = 6.28e-13 * 1302.5 / pin.passes;
+  pin.size = 0.1e-3;
+  pin.amplitude = 0.9e-3;
+  pin.half_width = 0.9e-3;
+  pin.margin = 0.8e-3;
+  pin.friction = 1.0;
+  Groove groove[2];
+  for (const auto rule : {simulation::ContactRule::patch, simulation::ContactRule::resolved}) {
+    simulation::Setup s = pin.setup();
+    s.walls[0].contact = rule;
+    s.wear.push_back({"mild_steel", "iron_ore", 3.3});
+    s.wear[1].wear_coefficient *= pin.wear_per_pass;
+    simulation::Simulation run(s);
+    run.advance();
+    ASSERT_TRUE(run.finished());
+    EXPECT_LT(run.ledger().residual, 1e-9);
+    EXPECT_LT(run.ledger().tip_residual, 1e-9);
+    EXPECT_GT(run.tip(0)->flat(0.0).along_s, 1.0e-3);
+    groove[rule == simulation::ContactRule::resolved] = measure_plate(run, 0.2e-3);
+  }
+  const double depth = groove[1].depth / groove[0].depth - 1.0,
+               width = groove[1].width / groove[0].width - 1.0;
+  measured("large flat, resolved against patch: depth", depth, 0.05);
+  measured("large flat, resolved against patch: width", width, 0.05);
+  EXPECT_LT(std::abs(depth), 0.05);
+  EXPECT_LT(std::abs(width), 0.05);
+}
+
 }  // namespace
 }  // namespace abradem::test

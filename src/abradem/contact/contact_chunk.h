@@ -22,15 +22,25 @@ struct PairConstants {
   double damping_t = 0.0;   ///< D_t likewise
   double friction = 0.0;    ///< mu
   double rolling = 0.0;     ///< mu_r
+  double damping = 0.0;     ///< D = damping sqrt(S m_eff)
+  material::ContactOptions options;
   [[nodiscard]] static PairConstants of(const material::PairProperties& p) noexcept {
     constexpr double two_sqrt_5_6 = 1.8257418583505538;
+    // The linear law's damper is that of a linear oscillator, and Hertz's springs are not there.
+    if (p.options.linear())
+      return {.friction = p.static_friction,
+              .rolling = p.rolling_friction,
+              .damping = 2.0 * p.beta,
+              .options = p.options};
     return {4.0 / 3.0 * p.E_eff,
             2.0 * p.E_eff,
             8.0 * p.G_eff,
             two_sqrt_5_6 * p.beta * std::sqrt(2.0 * p.E_eff),
             two_sqrt_5_6 * p.beta * std::sqrt(8.0 * p.G_eff),
             p.static_friction,
-            p.rolling_friction};
+            p.rolling_friction,
+            two_sqrt_5_6 * p.beta,
+            p.options};
   }
 };
 
@@ -43,6 +53,8 @@ struct PairTable {
   std::size_t materials = 0;
   std::vector<PairConstants> pair;  ///< materials x materials
   bool rolling = false;             ///< any rolling friction at all
+  bool options = false;             ///< any contact that is more than Hertz-Mindlin and a constant torque
+  bool adhesion = false;            ///< any JKR: contacts that last beyond zero overlap
   [[nodiscard]] const PairConstants& of(double a, double b) const noexcept {
     return pair[static_cast<std::size_t>(a) * materials + static_cast<std::size_t>(b)];
   }

@@ -49,13 +49,23 @@ using material::PairProperties;
   return two_sqrt_5_6 * p.beta * std::sqrt(S * m_eff);
 }
 
+/// Stiffness and damping coefficient that a step has to be short enough for: those of the pair's law.
+[[nodiscard]] inline double step_stiffness(const PairProperties& p, double a) noexcept {
+  return p.options.linear() ? p.options.normal_stiffness : normal_stiffness(p, a);
+}
+[[nodiscard]] inline double step_damping(const PairProperties& p, double S, double m_eff) noexcept {
+  return p.options.linear() ? 2.0 * p.beta * std::sqrt(S * m_eff) : damping_coefficient(p, S, m_eff);
+}
+
 /// What a contact remembers from step to step.
 struct TangentialHistory {
-  Vec3 s;  ///< elastic tangential displacement [m]
+  Vec3 s;              ///< elastic tangential displacement [m]
+  Vec3 rolling;        ///< elastic torque of rolling friction of type C [N m]
+  double twist = 0.0;  ///< elastic torque about the normal [N m]
 
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
-    archive("s", self.s);
+    archive("s", self.s)("rolling", self.rolling)("twist", self.twist);
   }
 };
 

@@ -20,6 +20,7 @@ struct PlaneList {
   std::vector<std::uint8_t> touching;
   std::vector<std::uint8_t> fresh;  ///< it touches since this step
   std::vector<SpringRow> spring;    ///< in the plane's frame [m]
+  std::vector<SpringRow> torque;    ///< likewise, of contacts with options [N m]
   std::vector<LoadRow> load;        ///< on each sphere, world frame; zero where it does not touch
   std::vector<double> F_n, slip;    ///< normal force [N], plastic sliding of the step [m]
 
@@ -31,7 +32,7 @@ struct PlaneList {
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
     archive("sphere", self.sphere)("id", self.id)("touching", self.touching)("spring", self.spring);
-    archive("load", self.load)("F_n", self.F_n)("slip", self.slip);
+    archive("torque", self.torque)("load", self.load)("F_n", self.F_n)("slip", self.slip);
     archive("fresh", self.fresh);
   }
   /// @return whether what was loaded is a list of some of so many spheres
@@ -39,9 +40,9 @@ struct PlaneList {
 };
 
 /// Hertz-Mindlin forces of a plane on the spheres of its list; their springs go one step on.
-/// @param by_material constants of each material against the plane's
+/// @param by_material constants of each material against the plane's; any with options: `options`
 /// @return false when a sphere overlaps by more than kDeepest / 2 of its radius
 [[nodiscard]] bool plane_forces(const Spheres& spheres, PlaneList& list, const MovingPlane& plane,
-                                std::span<const PairConstants> by_material, double dt);
+                                std::span<const PairConstants> by_material, bool options, double dt);
 
 }  // namespace abradem::contact

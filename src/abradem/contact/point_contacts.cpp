@@ -74,7 +74,8 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
       continue;
     const auto local = static_cast<std::int32_t>(t);
     const double overlap = tip.worn() ? tip.overlap(-offset, R) : R - distance;
-    touched_.push_back({closest.point, offset / distance, overlap, closest.feature, local, local});
+    const Vec3 n = tip.worn() ? tip.inward_normal(-offset) : offset / distance;
+    touched_.push_back({closest.point, n, overlap, closest.feature, local, local});
   }
   if (tip.worn()) {
     raw_ = excess_;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstring>
 
+#include "abradem/contact/full_law.h"
 #include "abradem/contact/quads.h"
 #include "abradem/core/parallel.h"
 
@@ -21,7 +22,8 @@ constexpr std::size_t kCapacity = ContactChunk::kCapacity;
 struct PairChunk {
   ContactChunk c;
   alignas(64) double offset[4 * kCapacity];  // x_i - x_j and R_i + R_j, row by row
-  ContactChunk::Array reach, inverse_mass, R_i, ux, uy, uz, rx, ry, rz, inertia;
+  ContactChunk::Array reach, inverse_mass, R_i, ux, uy, uz;
+  OptionsChunk o;  // torques of rolling; the rest only where a pair has options
   std::int32_t pair[kCapacity];
 };
 
@@ -32,6 +34,7 @@ struct Work {
   std::uint8_t* __restrict touching;
   const std::int32_t* __restrict far;
   SpringRow* __restrict spring;
+  SpringRow* __restrict torque;  ///< null where none are remembered
   LoadRow* __restrict far_load;
   LoadRow* __restrict load;
   const PairTable* table;
@@ -95,28 +98,65 @@ ABRADEM_INLINE double meet(PairChunk& p, std::size_t count) noexcept {
   return deepest;
 }
 
-/// Rolling resistance of constant torque, as rolling_torque of hertz_mindlin.h, against w_i - w_j.
-ABRADEM_INLINE void roll(const Work& w, PairChunk& p, std::size_t count) noexcept {
-  ContactChunk& c = p.c;
+/// Relative spins, and the inertia that they have.
+ABRADEM_INLINE void gather_spins(const Work& w, PairChunk& p, std::size_t count) noexcept {
   for (std::size_t k = 0; k < count; ++k) {
     const SphereRow& i = w.sphere[w.owner[p.pair[k]]];
     const SphereRow& j = w.sphere[w.partner[p.pair[k]]];
-    p.rx[k] = i.wx - j.wx;
-    p.ry[k] = i.wy - j.wy;
-    p.rz[k] = i.wz - j.wz;
-    p.inertia[k] = 0.4 / (i.inverse_mass / (i.radius * i.radius) + j.inverse_mass / (j.radius * j.radius));
+    p.o.wx[k] = i.wx - j.wx;
+    p.o.wy[k] = i.wy - j.wy;
+    p.o.wz[k] = i.wz - j.wz;
+    p.o.inertia[k] = 0.4 / (i.inverse_mass / (i.radius * i.radius) + j.inverse_mass / (j.radius * j.radius));
   }
+}
+
+/// Rolling resistance of constant torque, as rolling_torque of hertz_mindlin.h, against w_i - w_j.
+ABRADEM_INLINE void roll(const Work& w, PairChunk& p, std::size_t count) noexcept {
+  gather_spins(w, p, count);
+  const ContactChunk& c = p.c;
+  OptionsChunk& o = p.o;
   const double inverse_dt = 1.0 / w.dt;
 #pragma omp simd
   for (std::size_t k = 0; k < count; ++k) {
-    const double speed = std::sqrt(p.rx[k] * p.rx[k] + p.ry[k] * p.ry[k] + p.rz[k] * p.rz[k]);
+    const double speed = std::sqrt(o.wx[k] * o.wx[k] + o.wy[k] * o.wy[k] + o.wz[k] * o.wz[k]);
     const double F_n = c.F_n[k] > 0.0 ? c.F_n[k] : 0.0;
-    const double resistance = c.rolling[k] * c.R_eff[k] * F_n, most = p.inertia[k] * speed * inverse_dt;
+    const double resistance = c.rolling[k] * c.R_eff[k] * F_n, most = o.inertia[k] * speed * inverse_dt;
     const double per_speed = (resistance < most ? resistance : most) / speed;
     const double scale = speed > 0.0 ? -per_speed : 0.0;
-    p.rx[k] *= scale;
-    p.ry[k] *= scale;
-    p.rz[k] *= scale;
+    o.wx[k] *= scale;
+    o.wy[k] *= scale;
+    o.wz[k] *= scale;
+  }
+}
+
+/// The law of pairs that have options: cohesion, rolling springs and so on.
+ABRADEM_INLINE void full_law(const Work& w, PairChunk& p, std::size_t count) noexcept {
+  constexpr double quarter_pi = 0.7853981633974483;
+  ContactChunk& c = p.c;
+  OptionsChunk& o = p.o;
+  gather_spins(w, p, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto pair = at(p.pair[k]);
+    const PairConstants& constants =
+        w.table->of(w.sphere[w.owner[pair]].material, w.sphere[w.partner[pair]].material);
+    c.set_constants(k, constants);
+    o.set_constants(k, constants);
+    o.a_c[k] = snapping_radius(constants, c.R_eff[k]);
+    const SpringRow torque = w.torque != nullptr ? w.torque[pair] : SpringRow{};
+    o.mx[k] = torque.x, o.my[k] = torque.y, o.mz[k] = torque.z, o.twist[k] = torque.twist;
+    const double d = p.reach[k] - c.overlap[k], difference = p.R_i[k] - (p.reach[k] - p.R_i[k]);
+    o.area[k] = quarter_pi * c.overlap[k] * (d + p.reach[k]) * (d - difference) * (d + difference) / (d * d);
+  }
+  full_law_loop(c, o, count, w.dt);
+}
+
+/// What the contacts remember besides their springs, and those that have snapped.
+ABRADEM_INLINE void remember(const Work& w, const PairChunk& p, std::size_t count) noexcept {
+  const OptionsChunk& o = p.o;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto pair = at(p.pair[k]);
+    if (w.torque != nullptr) w.torque[pair] = {o.mx[k], o.my[k], o.mz[k], o.twist[k]};
+    if (o.parted[k] > 0.0) w.touching[pair] = 0;
   }
 }
 
@@ -134,7 +174,7 @@ ABRADEM_INLINE void scatter(const Work& w, PairChunk& p, std::size_t count) noex
     transpose(t[0], t[1], t[2], t[3]);
     transpose(s[0], s[1], s[2], s[3]);
     if constexpr (kRolling) {
-      r[0] = quad_at(p.rx + k), r[1] = quad_at(p.ry + k), r[2] = quad_at(p.rz + k);
+      r[0] = quad_at(p.o.wx + k), r[1] = quad_at(p.o.wy + k), r[2] = quad_at(p.o.wz + k);
       transpose(r[0], r[1], r[2], r[3]);
     }
     const std::size_t here = std::min<std::size_t>(4, count - k);
@@ -160,6 +200,7 @@ ABRADEM_INLINE void scatter(const Work& w, PairChunk& p, std::size_t count) noex
 
 /// The law over the contacts gathered so far. @return largest overlap beyond kDeepest R_eff [m], or less than
 /// 0
+template <bool kOptions>
 ABRADEM_INLINE double flush(const Work& w, PairChunk& p, std::size_t count) noexcept {
   constexpr std::size_t kLanes = 8;
   const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
@@ -168,6 +209,13 @@ ABRADEM_INLINE double flush(const Work& w, PairChunk& p, std::size_t count) noex
     quad_at(p.offset + 4 * k) = quad_at(p.offset + 4 * (count - 1));
   }
   gather(w, p, padded);
+  if constexpr (kOptions) {
+    const double beyond = meet(p, padded);
+    full_law(w, p, padded);
+    scatter<true>(w, p, count);
+    remember(w, p, count);
+    return beyond;
+  }
   if (w.table->materials > 1)
     for (std::size_t k = 0; k < padded; ++k) {
       const auto pair = at(p.pair[k]);
@@ -187,6 +235,7 @@ ABRADEM_INLINE double flush(const Work& w, PairChunk& p, std::size_t count) noex
 /// Pair k has parted: it remembers nothing, and does nothing to its partner.
 ABRADEM_INLINE void release(const Work& w, std::size_t k) noexcept {
   w.spring[k] = {};
+  if (w.torque != nullptr) w.torque[k] = {};
   if (w.partner[k] >= w.block_end) w.far_load[w.far[k]] = {};
 }
 
@@ -197,8 +246,9 @@ constexpr unsigned byte_shift(std::size_t m) noexcept {
 
 /// All pairs of one block, eight at a time. What overlaps is gathered into a chunk; full chunks go through
 /// the law. (Copies of w's pointers: stores to `touching`, which are bytes, may alias anything.)
-ABRADEM_DISPATCH double block_forces(const Work& w, std::int32_t first, std::int32_t last,
-                                     PairChunk& p) noexcept {
+template <bool kOptions>
+ABRADEM_INLINE double forces_of_block(const Work& w, std::int32_t first, std::int32_t last,
+                                      PairChunk& p) noexcept {
   const Quad minus{-1.0, -1.0, -1.0, 1.0};
   const SphereRow* const sphere = w.sphere;
   const std::int32_t* const owner = w.owner;
@@ -230,34 +280,46 @@ ABRADEM_DISPATCH double block_forces(const Work& w, std::int32_t first, std::int
       quad_at(reinterpret_cast<double*>(gap) + half) = g;
     }
     std::uint64_t now = 0, before = 0;
+    std::memcpy(&before, touching + k, 8);
     for (std::size_t m = 0; m < 8; ++m) {
-      const std::uint64_t overlaps = gap[m] >> 63;  // the sign
+      std::uint64_t overlaps = gap[m] >> 63;  // the sign
+      if constexpr (kOptions)  // what sticks together stays so until the law says that it has parted
+        if (w.table->adhesion) overlaps |= before >> byte_shift(m) & 1U;
       quad_at(p.offset + 4 * count) = d[m];
       p.pair[count] = pair + static_cast<std::int32_t>(m);
       count += overlaps;
       now |= overlaps << byte_shift(m);
     }
-    std::memcpy(&before, touching + k, 8);
     std::memcpy(touching + k, &now, 8);
     if ((before & ~now) != 0) [[unlikely]]
       for (std::size_t m = 0; m < 8; ++m)
         if (((before & ~now) >> byte_shift(m) & 1U) != 0) release(w, k + m);
     if (count + 8 > kCapacity) {
-      deepest = std::max(deepest, flush(w, p, count));
+      deepest = std::max(deepest, flush<kOptions>(w, p, count));
       count = 0;
     }
   }
   for (; pair < last; ++pair) {
     const auto k = at(pair);
     const Quad d = quads(sphere[owner[k]])[0] + quads(sphere[partner[k]])[0] * minus, s = d * d;
-    const bool overlaps = s[0] + s[1] + s[2] - s[3] < 0.0;
+    const bool sticks = kOptions && w.table->adhesion && touching[k] != 0;
+    const bool overlaps = s[0] + s[1] + s[2] - s[3] < 0.0 || sticks;
     quad_at(p.offset + 4 * count) = d;
     p.pair[count] = pair;
     if (touching[k] != 0 && !overlaps) release(w, k);
     touching[k] = static_cast<std::uint8_t>(overlaps);
     count += overlaps;
   }
-  return count > 0 ? std::max(deepest, flush(w, p, count)) : deepest;
+  return count > 0 ? std::max(deepest, flush<kOptions>(w, p, count)) : deepest;
+}
+
+ABRADEM_DISPATCH double block_forces(const Work& w, std::int32_t first, std::int32_t last,
+                                     PairChunk& p) noexcept {
+  return forces_of_block<false>(w, first, last, p);
+}
+ABRADEM_DISPATCH double block_forces_with_options(const Work& w, std::int32_t first, std::int32_t last,
+                                                  PairChunk& p) noexcept {
+  return forces_of_block<true>(w, first, last, p);
 }
 
 /// Blocks' own pairs first, then what comes from earlier blocks.
@@ -290,12 +352,14 @@ bool sphere_forces(const Spheres& spheres, SphereList& list, const PairTable& ta
                     list.touching.data(),
                     list.far.data(),
                     list.spring.data(),
+                    list.torque.empty() ? nullptr : list.torque.data(),
                     list.far_load.data(),
                     load.data(),
                     &table,
                     static_cast<std::int32_t>(end),
                     dt};
-    deepest[b] = block_forces(work, list.start[begin], list.start[end], chunk);
+    const auto block = table.options ? block_forces_with_options : block_forces;
+    deepest[b] = block(work, list.start[begin], list.start[end], chunk);
   });
   add_far_loads(list, load);
   return std::ranges::none_of(deepest, [](double d) { return d > 0.0; });

@@ -49,6 +49,7 @@ void SphereList::rebuild(Spheres& spheres, double skin) {
   before.partner.swap(partner);
   before.touching.swap(touching);
   before.spring.swap(spring);
+  before.torque.swap(torque);
   before.count_ = count_;
   sort_along_curve(spheres, 2.0 * largest + skin);
   count_ = spheres.size();
@@ -177,7 +178,8 @@ void SphereList::name_owners() {
 bool SphereList::restore(std::size_t spheres) {
   const auto pairs_at_end = static_cast<std::int32_t>(partner.size());
   if (start.size() != spheres + 1 || start.front() != 0 || start.back() != pairs_at_end ||
-      !std::ranges::is_sorted(start) || touching.size() != pairs() || spring.size() != pairs())
+      !std::ranges::is_sorted(start) || touching.size() != pairs() || spring.size() != pairs() ||
+      torque.size() != (torques_ ? pairs() : 0))
     return false;
   for (std::size_t i = 0; i < spheres; ++i) {
     auto last = static_cast<std::int32_t>(i);  // partners come later, in ascending order
@@ -195,6 +197,7 @@ bool SphereList::restore(std::size_t spheres) {
 void SphereList::carry_springs(const SphereList& before) {
   touching.assign(pairs(), 0);
   spring.assign(pairs(), {});
+  torque.assign(torques_ ? pairs() : 0, {});
   if (before.partner.empty()) return;
   core::parallel_for(
       pairs(),
@@ -212,6 +215,9 @@ void SphereList::carry_springs(const SphereList& before) {
         const double sign = i < j ? 1.0 : -1.0;
         const SpringRow& s = before.spring[o];
         spring[k] = {sign * s.x, sign * s.y, sign * s.z, 0.0};
+        if (!torques_ || before.torque.empty()) return;
+        const SpringRow& t = before.torque[o];  // about the normal it is the same seen from either side
+        torque[k] = {sign * t.x, sign * t.y, sign * t.z, t.twist};
       },
       kBlock);
 }

@@ -23,11 +23,14 @@ class SphereList {
   /// Sorts the spheres along a Morton curve, takes out those with id < 0, finds the pairs within `skin` and
   /// carries the springs over. O(n).
   void rebuild(Spheres& spheres, double skin);
+  /// Contacts are to remember torques too, from the next rebuild on.
+  void remember_torques() noexcept { torques_ = true; }
 
   /// The pairs and what they remember, for core/archive.h; restore() follows a load.
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
     archive("start", self.start)("partner", self.partner)("touching", self.touching)("spring", self.spring);
+    archive("torque", self.torque);
     archive("rebuilds", self.rebuilds_);
   }
   /// Makes what follows from the pairs.   @return whether these can be pairs of so many spheres
@@ -42,6 +45,7 @@ class SphereList {
   std::vector<std::int32_t> owner, partner;  ///< of each pair
   std::vector<std::uint8_t> touching;        ///< of each pair, at the last step
   std::vector<SpringRow> spring;             ///< of each pair; zero where it does not touch
+  std::vector<SpringRow> torque;             ///< likewise, where remembered; else empty
   std::vector<std::int32_t> far;  ///< of each pair whose partner is in a later block: its row in far_load
   std::vector<LoadRow> far_load;  ///< what far pairs do to their partners, partner by partner
   std::vector<std::int32_t> far_target;  ///< spheres that far pairs act on, ascending
@@ -54,6 +58,7 @@ class SphereList {
   void name_owners();
   void link_far_pairs();
 
+  bool torques_ = false;
   std::size_t count_ = 0;
   std::uint64_t rebuilds_ = 0;
   // The grid that the spheres were sorted by.

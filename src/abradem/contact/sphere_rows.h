@@ -40,9 +40,10 @@ struct alignas(64) LoadRow {
   }
 };
 
-/// What a contact remembers: the tangential spring of the sphere that owns it [m].
+/// What a contact remembers: the tangential spring of the sphere that owns it [m], or where the pair's
+/// options ask for it, the elastic rolling torque on it and, last, that about the normal [N m].
 struct alignas(32) SpringRow {
-  double x = 0.0, y = 0.0, z = 0.0, unused = 0.0;
+  double x = 0.0, y = 0.0, z = 0.0, twist = 0.0;
 };
 
 /// Spheres in numbers. Their order follows a space-filling curve and changes when the list of neighbours is

@@ -65,6 +65,15 @@ struct Tip {
   [[nodiscard]] double overlap(const Vec3& offset, double R) const noexcept {
     return R - norm(worn() ? offset + recession(offset) * axis : offset);
   }
+  /// Unit normal of the worn surface at the place of the map over that point, into the sphere: the gradient
+  /// of |offset + r axis|, r's slope taken over two cells.
+  [[nodiscard]] Vec3 inward_normal(const Vec3& offset) const noexcept {
+    const Vec3 pushed = offset + recession(offset) * axis;
+    const double s = dot(offset, u), t = dot(offset, v), cell = shape->cell;
+    const double slope_s = (shape->at(s + cell, t) - shape->at(s - cell, t)) / (2.0 * cell);
+    const double slope_t = (shape->at(s, t + cell) - shape->at(s, t - cell)) / (2.0 * cell);
+    return -normalized(pushed + dot(pushed, axis) * (slope_s * u + slope_t * v));
+  }
 };
 
 /// Corrects the excess of candidate nodes for a worn tip. A sphere that moves along the axis of its tip meets

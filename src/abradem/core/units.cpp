@@ -96,6 +96,7 @@ constexpr std::array kDimensions{
     NamedDimension{kForce, "a force", "N", "5 N"},
     NamedDimension{kPressure, "a pressure", "Pa", "0.1 GPa"},
     NamedDimension{{.mass = -1, .length = 1, .time = 2}, "an inverse pressure", "1/Pa", "5e-11 1/Pa"},
+    NamedDimension{{.mass = 1, .time = -2}, "a stiffness, or an energy per area", "N/m", "1e5 N/m"},
     NamedDimension{kEnergy, "an energy or a torque", "J", "2 mJ"},
     NamedDimension{kPower, "a power", "W", "3 W"},
 };

@@ -210,8 +210,13 @@ class Checker {
     const Vec3 e = v.high - v.low;
     const bool fits = v.shape == VolumeShape::box ? std::min({e.x, e.y, e.z}) >= 2.0 * R
                                                   : v.radius >= R && norm(v.top - v.base) >= 2.0 * R;
-    if (!fits)
-      error(path + ".volume", fmt::format("is too small for one sphere of {:.4g} mm radius", 1e3 * R));
+    if (fits) return;
+    constexpr double kSlip = 100.0;  // nearly the thousand of another unit
+    const double width = v.shape == VolumeShape::box ? std::min({e.x, e.y, e.z}) : norm(v.top - v.base);
+    error(path + ".volume", fmt::format("is too small for one sphere of {:.4g} mm radius{}", 1e3 * R,
+                                        width > 0.0 && 2.0 * R > kSlip * width
+                                            ? ": are the sizes in millimetres? A bare number is in metres"
+                                            : ""));
   }
 
   void check_wear_pairs() {

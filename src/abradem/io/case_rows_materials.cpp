@@ -11,13 +11,20 @@ namespace {
 using namespace std::string_view_literals;
 
 // In the order of the enumerations of setup.h.
-constexpr std::array kContactLaws{"hertz_mindlin"sv};
+constexpr std::array kContactLaws{"hertz_mindlin"sv, "linear"sv};
+constexpr std::array kRollingModels{"constant"sv, "epsd2"sv};
+constexpr std::array kTorsions{"none"sv, "marshall"sv};
+constexpr std::array kCohesions{"none"sv, "sjkr"sv, "jkr"sv};
 constexpr std::array kWearLaws{"archard"sv, "shear_work"sv, "finnie"sv, "oka"sv, "impact_energy"sv};
 constexpr std::array kArchard{"archard"sv};
 constexpr std::array kShearWork{"shear_work"sv};
 constexpr std::array kFinnie{"finnie"sv};
 constexpr std::array kOka{"oka"sv};
 constexpr std::array kImpactEnergy{"impact_energy"sv};
+
+constexpr std::array kLinear{"linear"sv};
+constexpr std::array kSjkr{"sjkr"sv};
+constexpr std::array kJkr{"jkr"sv};
 
 const std::array kRows{
     Row{.section = "",
@@ -68,10 +75,30 @@ const std::array kRows{
         .key = "law",
         .kind = Kind::choice,
         .need = Need::has_default,
-        .slot = [](const Target&) -> Slot { return {}; },
+        .slot = ABRADEM_CHOICE(contact->law),
         .choices = kContactLaws,
         .example = "\"hertz_mindlin\"",
-        .doc = "Contact law: Hertz-Mindlin (no slip) with viscous damping and Coulomb friction."},
+        .doc =
+            "Contact law: Hertz-Mindlin (no slip), or linear springs; both with viscous damping and Coulomb "
+            "friction."},
+    Row{.section = "contact.*",
+        .key = "normal_stiffness",
+        .slot = ABRADEM_SLOT(contact->normal_stiffness),
+        .unit = "N/m",
+        .limits = kPositive,
+        .when = {"law", kLinear},
+        .example = "\"1e5 N/m\"",
+        .doc = "Stiffness of the normal spring."},
+    Row{.section = "contact.*",
+        .key = "tangential_stiffness",
+        .need = Need::optional,
+        .slot = ABRADEM_SLOT(contact->tangential_stiffness),
+        .unit = "N/m",
+        .limits = kPositive,
+        .when = {"law", kLinear},
+        .default_note = "2/7 of the normal one",
+        .example = "\"3e4 N/m\"",
+        .doc = "Stiffness of the tangential spring."},
     Row{.section = "contact.*",
         .key = "restitution",
         .slot = ABRADEM_SLOT(contact->restitution),
@@ -90,7 +117,55 @@ const std::array kRows{
         .slot = ABRADEM_SLOT(contact->rolling_friction),
         .limits = kNotNegative,
         .example = "0.01",
-        .doc = "Coefficient of rolling friction (constant-torque model)."},
+        .doc = "Coefficient of rolling friction: largest rolling torque over normal force and effective "
+               "radius."},
+    Row{.section = "contact.*",
+        .key = "rolling_model",
+        .kind = Kind::choice,
+        .need = Need::has_default,
+        .slot = ABRADEM_CHOICE(contact->rolling_model),
+        .choices = kRollingModels,
+        .example = "\"epsd2\"",
+        .doc =
+            "Type A, a constant torque against the spin (constant), or type C, a spring that yields at that "
+            "torque and holds a sphere at rest (epsd2)."},
+    Row{.section = "contact.*",
+        .key = "torsion",
+        .kind = Kind::choice,
+        .need = Need::has_default,
+        .slot = ABRADEM_CHOICE(contact->torsion),
+        .choices = kTorsions,
+        .example = "\"marshall\"",
+        .doc =
+            "Resistance against spin about the normal: none, or that of static_friction over the contact's "
+            "circle (marshall)."},
+    Row{.section = "contact.*",
+        .key = "cohesion",
+        .kind = Kind::choice,
+        .need = Need::has_default,
+        .slot = ABRADEM_CHOICE(contact->cohesion),
+        .choices = kCohesions,
+        .example = "\"jkr\"",
+        .doc = "None; a force per area of contact (sjkr); or the adhesion of Johnson, Kendall and Roberts "
+               "(jkr), at walls of rule resolved and at planes."},
+    Row{.section = "contact.*",
+        .key = "cohesion_energy_density",
+        .slot = ABRADEM_SLOT(contact->cohesion_energy_density),
+        .unit = "J/m^3",
+        .limits = kPositive,
+        .when = {"cohesion", kSjkr},
+        .example = "\"1e5 J/m^3\"",
+        .doc = "Cohesive force over the area of the circle in which the bodies cut each other."},
+    Row{.section = "contact.*",
+        .key = "work_of_adhesion",
+        .slot = ABRADEM_SLOT(contact->work_of_adhesion),
+        .unit = "J/m^2",
+        .limits = kPositive,
+        .when = {"cohesion", kJkr},
+        .example = "\"0.1 J/m^2\"",
+        .doc = "Work w that parting takes per area (twice the surface energy of equal bodies): the pull-off "
+               "force "
+               "is 3/2 pi w R_eff."},
 
     Row{.section = "wear.*",
         .key = "law",

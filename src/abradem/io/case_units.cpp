@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "abradem/io/case_schema.h"
+#include "abradem/simulation/insertion.h"
 
 namespace abradem::io {
 namespace {
@@ -28,6 +29,7 @@ class Units {
     for (const WearSetup& w : setup_.wear) check_wear(w, path_of("wear", w.abrader + "/" + w.worn));
     for (const WallSetup& w : setup_.walls) check_motion(w, path_of("wall", w.name) + ".motion");
     for (const ParticleSetup& p : setup_.particles) check_particle(p, path_of("particle", p.name));
+    for (const InsertionSetup& i : setup_.insertions) check_insertion(i, path_of("insertion", i.name));
     constexpr double kStrongest = 100.0;  // ten times the Earth's
     if (const double g = norm(setup_.run.gravity); g > kStrongest)
       ask("run.gravity", "gravity is {:.4g} m/s^2, {:.3g} times the Earth's: is it in mm/s^2?", g, g / 9.81);
@@ -144,15 +146,75 @@ class Units {
           "cross-section: "
           "is the load in grams? Then write \"{:.4g} N\", or else \"{:.4g} N\"",
           p.name, 1e3 * p.radius, load, 1e-6 * load / cross_section, 1e-3 * kEarth * load, load);
-    if (p.guide == Guide::none) check_width(p, path);
+    if (p.guide == Guide::none) check_width(p.name, p.radius, path);
+  }
+
+  void check_insertion(const InsertionSetup& i, const std::string& path) {
+    constexpr double kFastest = 100.0;  // [m/s]
+    if (!places_.good(path)) return;
+    if (const double v = norm(i.velocity); v > kFastest)
+      ask(path + ".velocity", "particles of '{}' start at {:.4g} m/s: is their velocity in mm/s?", i.name, v);
+    if (!i.placed.empty() || i.volume.shape == VolumeShape::file)
+      return;  // sizes and places of a file have units
+    const double R = largest_radius(i.size);
+    if (!(R > 0.0)) return;
+    check_width(i.name, R, path + ".size");
+    const auto material = std::ranges::find(setup_.materials, i.material, &MaterialSetup::name);
+    if (material != setup_.materials.end()) check_amounts(i, path, R, material->density);
+  }
+
+  /// Masses and rates against one of the particles, and against what the volume can take.
+  void check_amounts(const InsertionSetup& i, const std::string& path, double R, double density) {
+    constexpr double kFilled = 0.3;     // of a volume, at random
+    constexpr double kTooFast = 20.0;   // times what falls out of the volume
+    constexpr double kEarth = 9.80665;  // [m/s^2]
+    constexpr double kSmallest = 1e-9;  // of the volume: a billion spheres would find room in it
+    const geometry::BoundingBox box = box_of(i.volume);
+    const double volume = volume_of(i.volume), height = norm(box.high - box.low);
+    const double one = 4.0 / 3.0 * std::numbers::pi * R * R * R, mass = density * one;
+    if (!(volume > 0.0)) return;
+    if (one < kSmallest * volume)
+      ask(path + ".size",
+          "'{}' has particles of at most {:.4g} mm radius in a volume of {:.4g} m^3, room for some {:.1g}: "
+          "is one of "
+          "them in another unit of length? A bare number is in metres",
+          i.name, 1e3 * R, volume, kFilled * volume / one);
+    if (i.mass && *i.mass < mass)
+      ask(path + ".mass",
+          "mass = {:.4g} kg of '{}' is less than one of its largest particles, {:.4g} kg: is it in another "
+          "unit, or "
+          "are their sizes?",
+          *i.mass, i.name, mass);
+    else if (i.mass && !i.mass_rate && *i.mass > density * volume)
+      ask(path + ".mass",
+          "mass = {:.4g} kg of '{}' is {:.3g} times what its volume of {:.4g} m^3 would hold if it were "
+          "solid: is it in "
+          "grams? Then write \"{:.4g} g\"",
+          *i.mass, i.name, *i.mass / (density * volume), volume, *i.mass);
+    if (!i.mass_rate) return;
+    const double speed = std::max(norm(i.velocity), std::sqrt(2.0 * kEarth * height));
+    if (const double most = kFilled * density * volume * speed / height; *i.mass_rate > kTooFast * most)
+      ask(path + ".mass_rate",
+          "mass_rate = {:.4g} kg/s of '{}' is {:.3g} times what can fall out of its volume, {:.3g} kg/s: is "
+          "it in g/s? "
+          "Then write \"{:.4g} g/s\"",
+          *i.mass_rate, i.name, *i.mass_rate / most, most, *i.mass_rate);
+    if (setup_.run.end.in_revolutions) return;
+    const double time = setup_.run.end.value - i.start;
+    if (time > 0.0 && *i.mass_rate * time < mass)
+      ask(path + ".mass_rate",
+          "mass_rate = {:.4g} kg/s of '{}' brings in {:.3g} kg until the run ends, less than one of its "
+          "largest "
+          "particles, {:.3g} kg: is it in another unit?",
+          *i.mass_rate, i.name, *i.mass_rate * time, mass);
   }
 
   /// A free sphere may be small in a large plant, so this is a question only.
-  void check_width(const ParticleSetup& p, const std::string& path) {
+  void check_width(const std::string& name, double radius, const std::string& path) {
     for (const WallSetup& wall : setup_.walls) {
       const std::string mesh = path_of("wall", wall.name) + ".mesh";
       if (!places_.good(mesh)) continue;
-      const std::string why = implausible_extent(wall, p.name, p.radius);
+      const std::string why = implausible_extent(wall, name, radius);
       if (!why.empty()) {
         ask(wall.mesh.shape == MeshShape::file ? path : mesh, "{}", why);
         return;

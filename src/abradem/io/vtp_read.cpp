@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -44,13 +46,7 @@ struct Tag {
 
 class Document {
  public:
-  explicit Document(const std::filesystem::path& file) : file_(file.string()) {
-    std::error_code code;
-    if (!std::filesystem::is_regular_file(file, code)) fail("no such file");
-    std::ifstream stream(file, std::ios::binary);
-    text_.assign(std::istreambuf_iterator<char>(stream), {});
-    if (!stream) fail("cannot be read; check its permissions");
-  }
+  Document(std::string name, std::string text) : file_(std::move(name)), text_(std::move(text)) {}
   [[noreturn]] void fail(const std::string& what) const { throw IoError(fmt::format("{}: {}", file_, what)); }
   [[nodiscard]] std::string_view text() const noexcept { return text_; }
 
@@ -76,6 +72,16 @@ class Document {
   std::string file_, text_;
 };
 
+std::string content_of(const std::filesystem::path& file) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(file, code))
+    throw IoError(fmt::format("{}: no such file", file.string()));
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (!stream) throw IoError(fmt::format("{}: cannot be read; check its permissions", file.string()));
+  return text;
+}
+
 double parse_number(const Document& document, std::string_view text, std::string_view what) {
   double value = 0.0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -83,6 +89,16 @@ double parse_number(const Document& document, std::string_view text, std::string
     document.fail(fmt::format("{} is '{}', expected a number", what, text.substr(0, 40)));
   }
   return value;
+}
+
+/// A number of things, or a place in the file.
+std::size_t parse_count(const Document& document, std::string_view text, std::string_view what,
+                        std::size_t most) {
+  const double value = parse_number(document, text, what);
+  if (!(value >= 0.0 && value <= static_cast<double>(most)) || value != std::floor(value))
+    document.fail(
+        fmt::format("{} is '{}', expected a whole number up to {}", what, text.substr(0, 40), most));
+  return static_cast<std::size_t>(value);
 }
 
 /// Undoes the entities of an attribute.
@@ -263,7 +279,7 @@ std::vector<double> parse_ascii(const Document& document, std::string_view text)
 /// The arrays of the file, by section ("Points", "Polys", "PointData", "CellData") and name.
 class VtpParser {
  public:
-  explicit VtpParser(const std::filesystem::path& file) : document_(file) {}
+  VtpParser(std::string name, std::string text) : document_(std::move(name), std::move(text)) {}
 
   VtpSurface read() {
     read_header();
@@ -309,7 +325,8 @@ class VtpParser {
 
   void start_piece(const Tag& tag) {
     if (pieces_++ > 0) document_.fail("has more than one <Piece>; expected one");
-    points_ = static_cast<std::size_t>(parse_number(document_, tag["NumberOfPoints"], "NumberOfPoints"));
+    points_ = parse_count(document_, tag["NumberOfPoints"], "NumberOfPoints",
+                          std::numeric_limits<geometry::Index>::max());
   }
 
   VtpField load(const Tag& tag) const {
@@ -317,11 +334,12 @@ class VtpParser {
     VtpField out;
     const std::string_view components = tag["NumberOfComponents"];
     if (!components.empty())
-      out.components = static_cast<int>(parse_number(document_, components, "NumberOfComponents"));
+      out.components = static_cast<int>(
+          parse_count(document_, components, "NumberOfComponents", std::numeric_limits<int>::max()));
     const std::string_view format = tag["format"];
     if (format == "appended") {
-      const auto offset =
-          static_cast<std::size_t>(parse_number(document_, tag["offset"], "an array's offset"));
+      const std::size_t offset =
+          parse_count(document_, tag["offset"], "an array's offset", document_.text().size());
       if (offset >= encoding_.appended.size()) {
         document_.fail(
             fmt::format("array '{}' starts at {}, past the end of the appended data; was the file cut off?",
@@ -369,10 +387,13 @@ class VtpParser {
     surface_.mesh.vertices.resize(points_);
     for (std::size_t k = 0; k < points_; ++k) {
       surface_.mesh.vertices[k] = {array.values[3 * k], array.values[3 * k + 1], array.values[3 * k + 2]};
+      if (!is_finite(surface_.mesh.vertices[k])) document_.fail(fmt::format("point {} is not finite", k));
     }
   }
 
   void build_triangles() {
+    if (surface_.mesh.vertices.size() != points_)
+      document_.fail(fmt::format("states {} points, and has no <Points> that hold them", points_));
     if (connectivity_.size() != 3 * offsets_.size()) {
       document_.fail(fmt::format("{} polygons with {} corners; only triangles are supported", offsets_.size(),
                                  connectivity_.size()));
@@ -401,10 +422,18 @@ class VtpParser {
 
 }  // namespace
 
-VtpSurface read_vtp(const std::filesystem::path& file) { return VtpParser(file).read(); }
+VtpSurface read_vtp(const std::filesystem::path& file) { return parse_vtp(content_of(file), file.string()); }
+
+VtpSurface parse_vtp(std::string text, const std::string& name) {
+  return VtpParser(name, std::move(text)).read();
+}
 
 std::vector<SeriesFrame> read_pvd(const std::filesystem::path& file) {
-  const Document document(file);
+  return parse_pvd(content_of(file), file);
+}
+
+std::vector<SeriesFrame> parse_pvd(std::string text, const std::filesystem::path& file) {
+  const Document document(file.string(), std::move(text));
   if (document.text().find("type=\"Collection\"") == std::string_view::npos) {
     document.fail("is not a ParaView collection; expected <VTKFile type=\"Collection\" …>");
   }

@@ -28,6 +28,8 @@ struct VtpSurface {
 /// @throws IoError when the file is missing, damaged or of a kind named above as unsupported; the message
 ///         names the file and what was found
 [[nodiscard]] VtpSurface read_vtp(const std::filesystem::path& file);
+/// The same from memory. @param name what messages call it
+[[nodiscard]] VtpSurface parse_vtp(std::string text, const std::string& name);
 
 /// One file of a ParaView collection.
 struct SeriesFrame {
@@ -39,5 +41,7 @@ struct SeriesFrame {
 /// Reads a .pvd collection, in the order of the file.
 /// @throws IoError when it is missing, is not a collection or an entry names no file
 [[nodiscard]] std::vector<SeriesFrame> read_pvd(const std::filesystem::path& file);
+/// The same from memory. @param file where the text is from
+[[nodiscard]] std::vector<SeriesFrame> parse_pvd(std::string text, const std::filesystem::path& file);
 
 }  // namespace abradem::io

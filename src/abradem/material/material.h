@@ -10,6 +10,21 @@ struct Material {
   double poisson_ratio = 0.0;  ///< nu [-]
 };
 
+/// What a contact does besides, or instead of, Hertz-Mindlin with a constant rolling torque; all zero:
+/// nothing. docs/theory/contact.md#beyond-hertz-mindlin
+struct ContactOptions {
+  double normal_stiffness = 0.0;      ///< > 0: linear spring-dashpot instead of Hertz-Mindlin [N/m]
+  double tangential_stiffness = 0.0;  ///< of the linear law [N/m]
+  double cohesion = 0.0;              ///< SJKR: force per area of contact [J/m^3 = Pa]
+  double adhesion = 0.0;              ///< JKR: work of adhesion w [J/m^2]
+  bool rolling_spring = false;        ///< rolling friction of type C (EPSD2) instead of a constant torque
+  bool torsion = false;               ///< resistance against spin about the normal (Marshall 2009)
+  [[nodiscard]] bool any() const noexcept {
+    return normal_stiffness > 0.0 || cohesion > 0.0 || adhesion > 0.0 || rolling_spring || torsion;
+  }
+  [[nodiscard]] bool linear() const noexcept { return normal_stiffness > 0.0; }
+};
+
 /// What a Hertz-Mindlin contact needs of two materials.
 struct PairProperties {
   double E_eff = 0.0;             ///< effective Young's modulus, 1/E_eff = sum (1 - nu^2) / E [Pa]
@@ -17,6 +32,7 @@ struct PairProperties {
   double beta = 0.0;              ///< damping ratio |ln e| / sqrt(ln^2 e + pi^2) [-]
   double static_friction = 0.0;   ///< mu [-]
   double rolling_friction = 0.0;  ///< mu_r [-]
+  ContactOptions options = {};
 };
 
 /// E = 2 G (1 + nu) [Pa].

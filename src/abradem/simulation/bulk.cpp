@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "abradem/contact/full_law.h"
 #include "abradem/core/error.h"
 
 namespace abradem::simulation {
@@ -28,10 +29,15 @@ Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
            const std::vector<material::PairProperties>& properties, const Particles& named)
     : walls_(setup.walls.size()), domain_(setup.domain), names_(named.name) {
   table_.materials = materials.size();
+  bool remembers_torques = false;
   for (const material::PairProperties& p : properties) {
     table_.pair.push_back(contact::PairConstants::of(p));
     table_.rolling = table_.rolling || p.rolling_friction > 0.0;
+    table_.options = table_.options || p.options.any();
+    table_.adhesion = table_.adhesion || p.options.adhesion > 0.0;
+    remembers_torques = remembers_torques || p.options.rolling_spring || p.options.torsion;
   }
+  if (remembers_torques) list_.remember_torques();
   for (std::size_t p = 0; p < named.size(); ++p) {
     contact::SphereRow s;
     s.set_position(named.position[p]);
@@ -111,6 +117,7 @@ void Bulk::find_contacts(const Surroundings& around, const Particles& named, std
     double sum = 0.0;
     for (const contact::SphereRow& s : spheres_.row) sum += s.radius;
     skin_ = spheres_.size() > 0 ? kSkin * sum / static_cast<double>(spheres_.size()) : 0.0;
+    if (table_.adhesion) skin_ = std::max(skin_, 2.0 * longest_stretch());
     list_.rebuild(spheres_, skin_);
     walls_.rebuild(spheres_, around, skin_, named_, paper);
     find_named();
@@ -122,36 +129,73 @@ void Bulk::find_contacts(const Surroundings& around, const Particles& named, std
   walls_.find(spheres_, around, travelled_ + walls_.fastest_wall() * wall_time_);
 }
 
+/// How far any contact can be drawn out before it snaps [m].
+double Bulk::longest_stretch() const {
+  double largest = 0.0, stretch = 0.0;
+  for (const contact::SphereRow& s : spheres_.row) largest = std::max(largest, s.radius);
+  for (const contact::PairConstants& p : table_.pair)
+    stretch = std::max(stretch, contact::stretch_at_snap(p, largest));
+  return stretch;
+}
+
 void Bulk::compute_forces(const Surroundings& around, Particles& named) {
   sound_ = contact::sphere_forces(spheres_, list_, table_, around.dt, load_);
   for (std::size_t p = 0; p < place_of_named_.size(); ++p) {
     contact::LoadRow& l = load_[place_of_named_[p]];
     named.force[p] += l.force();
     named.torque[p] += l.torque();
+    const double stiffening = l.stiffening;  // the watch of the step asks for it
     l = {};
+    l.stiffening = stiffening;
   }
   sound_ = walls_.compute(spheres_, around, load_) && sound_;
 }
 
 void Bulk::integrate(const Surroundings& around) {
   met_ = contact::advance_spheres(spheres_.row, load_, around.gravity, around.dt);
-  worst_stability_ = std::max(worst_stability_, met_.stability);
-  travelled_ += std::sqrt(met_.fastest2) * around.dt;
+  const double fastest = std::sqrt(met_.fastest2);
+  fastest_ = std::max(fastest_, fastest);
+  travelled_ += fastest * around.dt;
   wall_time_ += around.dt;
 }
 
 void Bulk::check(const Surroundings& around, std::uint64_t step) const {
-  if (sound_ && met_.finite && met_.longest <= kFastest) return;
+  const bool slow = met_.longest <= kFastest && met_.fastest2 <= fastest_allowed_ * fastest_allowed_ &&
+                    walls_.fastest_wall() * around.dt <= skin_;
+  if (!met_.finite || !slow) check_motion(around, step);
+  if (!sound_) check_overlaps(around, step);
+}
+
+void Bulk::check_motion(const Surroundings& around, std::uint64_t step) const {
   for (std::size_t i = 0; i < spheres_.size(); ++i) {
-    if (spheres_.id[i] < named_) continue;
+    if (spheres_.id[i] < named_) continue;  // a copy: it is looked at with its own kind
     const contact::SphereRow& s = spheres_.row[i];
     if (!is_finite(s.position()) || !is_finite(s.velocity()))
       fail(i, "its position or speed is no longer a number", around, step);
-    if (const double way = norm(s.velocity()) * around.dt; way > kFastest * s.radius)
+    const double speed = norm(s.velocity());
+    if (const double way = speed * around.dt; way > kFastest * s.radius)
       fail(i, fmt::format("it moves {:.4g} mm in one step, more than a tenth of its radius", 1e3 * way),
            around, step);
+    if (speed > fastest_allowed_)
+      fail(i,
+           fmt::format("its energy explodes: {:.4g} J at {:.4g} m/s, a hundred times what its start, gravity "
+                       "and the walls can give it",
+                       0.5 * speed * speed / s.inverse_mass, speed),
+           around, step);
+    for (std::size_t w = 0; w < around.walls.size(); ++w) {
+      const Vec3 past = s.velocity() - around.poses[w].velocity_at(s.position());
+      if (const double way = norm(past) * around.dt; way > s.radius && around.walls[w].present(around.time))
+        fail(
+            i,
+            fmt::format("wall '{}' moves past it by {:.4g} mm in one step, more than its radius: it may pass "
+                        "through unseen",
+                        around.walls[w].setup().name, 1e3 * way),
+            around, step);
+    }
   }
-  if (sound_) return;  // only a copy of a named one: it is looked at with its own kind
+}
+
+void Bulk::check_overlaps(const Surroundings& around, std::uint64_t step) const {
   for (std::size_t k = 0; k < list_.pairs(); ++k) {
     const contact::SphereRow &i = spheres_.row[at(list_.owner[k])], &j = spheres_.row[at(list_.partner[k])];
     const double overlap = i.radius + j.radius - norm(i.position() - j.position());
@@ -162,14 +206,41 @@ void Bulk::check(const Surroundings& around, std::uint64_t step) const {
                        title(at(list_.partner[k])), 1e3 * overlap),
            around, step);
   }
+  constexpr double kDeepestInWall = 0.5 * contact::kDeepest;
+  const auto check_wall = [&](std::int32_t sphere, std::size_t w, double overlap, double most) {
+    if (overlap > most * spheres_.row[at(sphere)].radius)
+      fail(at(sphere),
+           fmt::format("its overlap with wall '{}' is {:.4g} mm, more than a tenth of its radius",
+                       around.walls[w].setup().name, 1e3 * overlap),
+           around, step);
+  };
+  for (std::size_t w = 0; w < walls_.planes().size(); ++w) {
+    const contact::PlaneList& plane = walls_.planes()[w];
+    const MeshSetup& mesh = around.walls[w].setup().mesh;
+    for (std::size_t k = 0; k < plane.size(); ++k) {
+      const contact::SphereRow& s = spheres_.row[at(plane.sphere[k])];
+      const Vec3 c = around.poses[w].to_body(s.position());
+      check_wall(plane.sphere[k], w, s.radius - dot(mesh.normal, c - mesh.position), 0.95 * kDeepestInWall);
+    }
+  }
   for (const BulkWalls::NearMesh& m : walls_.meshes())
     for (const SphereWall::Touch& t : m.contact->touches())
-      if (t.overlap > 0.5 * contact::kDeepest * spheres_.row[at(m.sphere)].radius)
-        fail(at(m.sphere),
-             fmt::format("its overlap with wall '{}' is {:.4g} mm, more than a tenth of its radius",
-                         around.walls[at(m.wall)].setup().name, 1e3 * t.overlap),
-             around, step);
-  fail(0, "it or another one overlaps a wall by more than a tenth of its radius", around, step);
+      check_wall(m.sphere, at(m.wall), t.overlap, kDeepestInWall);
+  fail(0, "it or another one overlaps a sphere or a wall by more than a tenth of its radius", around, step);
+}
+
+void Bulk::watch_stability(const Surroundings& around, std::uint64_t step, Stability then) {
+  const auto mode = stability_.watch(spheres_, list_, table_, load_, walls_, around, met_.stability);
+  if (!mode || then == Stability::warn) return;
+  fail(mode->sphere,
+       fmt::format("the time step is too long: 2g + W = {:.4g} in its contact with {}, stable below 4; a "
+                   "disturbance has grown a thousandfold. Take run.time_step below {:.3g} s; run.stability = "
+                   "\"warn\" goes on nevertheless",
+                   mode->scheme.number(),
+                   mode->partner >= 0 ? title(at(mode->partner))
+                                      : fmt::format("wall '{}'", around.walls[at(mode->wall)].setup().name),
+                   mode->scheme.stable_step(around.dt)),
+       around, step, "");
 }
 
 std::string Bulk::title(std::size_t i) const {
@@ -177,14 +248,11 @@ std::string Bulk::title(std::size_t i) const {
   return id < named_ ? fmt::format("particle '{}'", names_[at(id)]) : fmt::format("particle {}", id);
 }
 
-void Bulk::fail(std::size_t i, const std::string& what, const Surroundings& around,
-                std::uint64_t step) const {
+void Bulk::fail(std::size_t i, const std::string& what, const Surroundings& around, std::uint64_t step,
+                const char* advice) const {
   const contact::SphereRow& s = spheres_.row[i];
-  throw SimulationError(
-      fmt::format("{} at ({:.4g}, {:.4g}, {:.4g}) mm, step {}, {:.6g} s: {}. Shorten the time step, "
-                  "or check the "
-                  "stiffness, the speeds and the starting positions",
-                  title(i), 1e3 * s.x, 1e3 * s.y, 1e3 * s.z, step, around.time, what));
+  throw SimulationError(fmt::format("{} at ({:.4g}, {:.4g}, {:.4g}) mm, step {}, {:.6g} s: {}{}", title(i),
+                                    1e3 * s.x, 1e3 * s.y, 1e3 * s.z, step, around.time, what, advice));
 }
 
 BulkState Bulk::state(const std::vector<material::PairProperties>& properties) const {
@@ -209,7 +277,10 @@ BulkState Bulk::state(const std::vector<material::PairProperties>& properties) c
     ++state.pair_contacts;
     const auto& pair = properties[static_cast<std::size_t>(i.material) * table_.materials +
                                   static_cast<std::size_t>(j.material)];
-    state.elastic_energy += 0.4 * overlap * contact::hertz_force(pair, i.radius * j.radius / reach, overlap);
+    state.elastic_energy +=
+        pair.options.linear()
+            ? 0.5 * pair.options.normal_stiffness * overlap * overlap
+            : 0.4 * overlap * contact::hertz_force(pair, i.radius * j.radius / reach, overlap);
   }
   state.wall_contacts = walls_.contacts();
   return state;
@@ -242,8 +313,12 @@ void Bulk::add_to(core::StateHash& hash) const {
   }
   for (std::size_t k = 0; k < list_.pairs(); ++k)
     if (list_.touching[k] != 0) hash.add(Vec3{list_.spring[k].x, list_.spring[k].y, list_.spring[k].z});
+  for (const contact::SpringRow& t : list_.torque) hash.add(Vec3{t.x, t.y, t.z}), hash.add(t.twist);
   for (const contact::PlaneList& plane : walls_.planes())
     for (const contact::SpringRow& s : plane.spring) hash.add(Vec3{s.x, s.y, s.z});
+  if (table_.options)
+    for (const contact::PlaneList& plane : walls_.planes())
+      for (const contact::SpringRow& t : plane.torque) hash.add(Vec3{t.x, t.y, t.z}), hash.add(t.twist);
   for (const BulkWalls::NearMesh& m : walls_.meshes()) m.contact->add_to(hash);
 }
 

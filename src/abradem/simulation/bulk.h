@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "abradem/contact/sphere_forces.h"
 #include "abradem/core/hash.h"
+#include "abradem/simulation/bulk_stability.h"
 #include "abradem/simulation/bulk_walls.h"
 #include "abradem/simulation/insertion.h"
 #include "abradem/simulation/particles.h"
@@ -18,7 +20,7 @@ struct BulkState {
   double mass = 0.0, removed_mass = 0.0;  ///< [kg]
   std::uint64_t pair_contacts = 0, wall_contacts = 0;
   double kinetic_energy = 0.0;  ///< [J]
-  double elastic_energy = 0.0;  ///< normal, among the spheres [J]
+  double elastic_energy = 0.0;  ///< normal, among the spheres; without adhesion and cohesion [J]
   double fastest = 0.0;         ///< [m/s]
 };
 
@@ -41,6 +43,10 @@ class Bulk {
   void integrate(const Surroundings& around);
   /// @throws SimulationError naming a particle when the state has left the range that the equations hold in
   void check(const Surroundings& around, std::uint64_t step) const;
+  /// A sphere that is faster stops the run: its energy explodes [m/s].
+  void limit_speed(double speed) noexcept { fastest_allowed_ = speed; }
+  /// @throws SimulationError when the step is too long for the contacts, unless `then` is to go on
+  void watch_stability(const Surroundings& around, std::uint64_t step, Stability then);
 
   [[nodiscard]] BulkWalls& walls() noexcept { return walls_; }
   [[nodiscard]] const BulkWalls& walls() const noexcept { return walls_; }
@@ -52,7 +58,9 @@ class Bulk {
   [[nodiscard]] const std::vector<contact::LoadRow>& loads() const noexcept { return load_; }
   [[nodiscard]] const std::vector<Inserter>& inserters() const noexcept { return inserters_; }
   /// Largest 2 g + W met. docs/theory/time-step.md
-  [[nodiscard]] double worst_stability() const noexcept { return worst_stability_; }
+  [[nodiscard]] double worst_stability() const noexcept { return stability_.worst(); }
+  /// Largest speed met [m/s].
+  [[nodiscard]] double fastest() const noexcept { return fastest_; }
   [[nodiscard]] BulkState state(const std::vector<material::PairProperties>& properties) const;
   /// Adds everything that the next step depends on.
   void add_to(core::StateHash& hash) const;
@@ -64,7 +72,7 @@ class Bulk {
     for (auto& inserter : self.inserters_) archive("inserter", inserter);
     archive("next_id", self.next_id_)("skin", self.skin_)("travelled", self.travelled_);
     archive("wall_time", self.wall_time_)("worn_out", self.worn_out_);
-    archive("worst_stability", self.worst_stability_);
+    archive("stability", self.stability_)("fastest", self.fastest_);
     archive("removed", self.removed_)("removed_mass", self.removed_mass_);
   }
   /// @return whether what was loaded fits the case
@@ -72,12 +80,18 @@ class Bulk {
 
  private:
   void take_in(double time);
+  [[nodiscard]] double longest_stretch() const;
   void take_out();
   [[nodiscard]] std::string title(std::size_t i) const;
   void find_named();
+  void check_motion(const Surroundings& around, std::uint64_t step) const;
+  void check_overlaps(const Surroundings& around, std::uint64_t step) const;
   void fetch_named(const Particles& named);
   [[noreturn]] void fail(std::size_t i, const std::string& what, const Surroundings& around,
-                         std::uint64_t step) const;
+                         std::uint64_t step,
+                         const char* advice =
+                             ". Shorten the time step, or check the stiffness, the speeds "
+                             "and the starting positions") const;
 
   contact::Spheres spheres_;
   contact::SphereList list_;
@@ -92,7 +106,8 @@ class Bulk {
   double skin_ = 0.0, travelled_ = 0.0, wall_time_ = 0.0;  // since the lists were made
   bool worn_out_ = true, sound_ = true;
   contact::Advance met_;
-  double worst_stability_ = 0.0, removed_mass_ = 0.0;
+  BulkStability stability_;
+  double removed_mass_ = 0.0, fastest_ = 0.0, fastest_allowed_ = std::numeric_limits<double>::infinity();
   std::uint64_t removed_ = 0;
 };
 

@@ -54,10 +54,13 @@ double largest_speed(const Wall& wall, const contact::Spheres& spheres, double s
 
 void BulkWalls::find_constants(const Surroundings& around) {
   constants_.resize(around.walls.size() * around.materials);
+  options_ = false;
   for (std::size_t w = 0; w < around.walls.size(); ++w)
-    for (std::size_t m = 0; m < around.materials; ++m)
-      constants_[w * around.materials + m] =
-          contact::PairConstants::of(around.pair(static_cast<int>(m), around.walls[w].material()));
+    for (std::size_t m = 0; m < around.materials; ++m) {
+      const material::PairProperties& pair = around.pair(static_cast<int>(m), around.walls[w].material());
+      constants_[w * around.materials + m] = contact::PairConstants::of(pair);
+      options_ = options_ || pair.options.any();
+    }
 }
 
 bool BulkWalls::restore(const contact::Spheres& spheres, const Surroundings& around) {
@@ -145,6 +148,7 @@ void BulkWalls::list_meshes(const contact::Spheres& spheres, const Surroundings&
     Wall& wall = around.walls[at(gone.wall)];
     paper[at(gone.wall)] += gone.contact->take_centroid_volume(wall);
     gone.contact->book_elements(wall);
+    unplaced_[at(gone.wall)] += gone.contact->unpiled_volume();
   }
 }
 
@@ -182,7 +186,7 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
     if (planes_[w].size() == 0) continue;
     const std::span constants(constants_.data() + w * around.materials, around.materials);
     sound = contact::plane_forces(spheres, planes_[w], plane_of(around.walls[w], around.poses[w]), constants,
-                                  around.dt) &&
+                                  options_, around.dt) &&
             sound;
     for (std::size_t k = 0; k < planes_[w].size(); ++k) load[at(planes_[w].sphere[k])] += planes_[w].load[k];
   }
@@ -191,7 +195,7 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
       meshes_.size(),
       [&](std::size_t k) {
         NearMesh& m = meshes_[k];
-        if (m.contact->touches().empty() && m.load.stiffening == 0.0) return;
+        if (m.contact->touches().empty() && m.load.stiffening == 0.0 && m.load.force() == Vec3{}) return;
         const contact::SphereRow& s = spheres.row[at(m.sphere)];
         const Wall& wall = around.walls[at(m.wall)];
         const material::PairProperties& pair = around.pair(static_cast<int>(s.material), wall.material());
@@ -199,8 +203,8 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
         const ForceAndTorque f = m.contact->compute(wall, around.poses[at(m.wall)], sphere, pair, around.dt);
         m.load = {f.force.x, f.force.y, f.force.z, 0.0, f.torque.x, f.torque.y, f.torque.z, 0.0};
         for (const SphereWall::Touch& t : m.contact->touches()) {
-          const double S = contact::normal_stiffness(pair, t.a);
-          const double D = contact::damping_coefficient(pair, S, sphere.mass);
+          const double S = contact::step_stiffness(pair, t.a);
+          const double D = contact::step_damping(pair, S, sphere.mass);
           m.load.stiffening += (2.0 * D + S * around.dt) * around.dt;
           deep[k] = deep[k] != 0 || t.overlap > 0.5 * contact::kDeepest * s.radius;
         }

@@ -35,7 +35,8 @@ class BulkWalls {
     }
   };
 
-  explicit BulkWalls(std::size_t walls) : planes_(walls), grids_(walls), odometer_(walls, 0.0) {}
+  explicit BulkWalls(std::size_t walls)
+      : planes_(walls), grids_(walls), odometer_(walls, 0.0), unplaced_(walls, 0.0) {}
 
   /// Lists the spheres within `skin` of each wall; those with id < first_id are none of ours.
   /// What a contact that is no longer near still owes its wall is settled.
@@ -53,6 +54,8 @@ class BulkWalls {
   [[nodiscard]] const std::vector<contact::PlaneList>& planes() const noexcept { return planes_; }
   /// Sum of the contact forces on a wall at the last step [N].
   [[nodiscard]] Vec3 force_on(std::size_t wall) const noexcept;
+  /// Ploughed aside by spheres that are gone since, where the wall had no place for it [m^3].
+  [[nodiscard]] double unplaced(std::size_t wall) const noexcept { return unplaced_[wall]; }
   /// How fast any point of a wall within reach of the spheres moves [m/s].
   [[nodiscard]] double fastest_wall() const noexcept { return fastest_wall_; }
   [[nodiscard]] std::size_t contacts() const noexcept;
@@ -63,6 +66,7 @@ class BulkWalls {
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
     archive.fixed("planes", self.planes_)("meshes", self.meshes_).fixed("odometer", self.odometer_);
+    archive.fixed("unplaced", self.unplaced_);
     archive("fastest_wall", self.fastest_wall_)("next_removal", self.next_removal_);
   }
   /// @return whether what was loaded fits the spheres and the walls
@@ -77,7 +81,9 @@ class BulkWalls {
   std::vector<NearGrid> grids_;                    // of each mesh wall
   std::vector<NearMesh> meshes_;                   // by sphere, then wall
   std::vector<double> odometer_;                   // of each wall's wear at the rebuild [m]
+  std::vector<double> unplaced_;                   // on each wall, ploughed by contacts that are gone [m^3]
   std::vector<contact::PairConstants> constants_;  // walls x materials
+  bool options_ = false;                           // has any of them
   double fastest_wall_ = 0.0, next_removal_ = std::numeric_limits<double>::infinity();
 };
 

@@ -10,7 +10,6 @@
 #include <unordered_map>
 
 #include "abradem/core/error.h"
-#include "abradem/geometry/triangle_mesh.h"
 
 namespace abradem::simulation {
 
@@ -71,7 +70,8 @@ class Occupancy {
   std::unordered_map<std::int64_t, std::vector<std::size_t>> cells_;
 };
 
-/// The volume's bounding box.
+}  // namespace
+
 geometry::BoundingBox box_of(const VolumeSetup& v) {
   if (v.shape == VolumeShape::box) return {v.low, v.high};
   const Vec3 axis = normalized(v.top - v.base);
@@ -83,13 +83,11 @@ geometry::BoundingBox box_of(const VolumeSetup& v) {
            std::max(v.base.z, v.top.z) + r.z}};
 }
 
-double capacity(const VolumeSetup& v) {
+double volume_of(const VolumeSetup& v) {
   if (v.shape == VolumeShape::cylinder) return pi * v.radius * v.radius * norm(v.top - v.base);
   const Vec3 e = v.high - v.low;
   return e.x * e.y * e.z;
 }
-
-}  // namespace
 
 double smallest_radius(const SizeSetup& size) noexcept {
   switch (size.kind) {
@@ -226,7 +224,7 @@ std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Sph
         "the number, or insert at a mass_rate",
         setup_.name, inserted_,
         setup_.number > 0 ? fmt::format("{}", setup_.number) : fmt::format("{:.4g} kg of", *setup_.mass),
-        mass_, 100.0 * mass_ / density_ / capacity(setup_.volume)));
+        mass_, 100.0 * mass_ / density_ / volume_of(setup_.volume)));
   // At a rate: again when a sphere of the largest size may have cleared its place.
   const double pause = setup_.mass_rate ? std::max(mass_of(radius_, density_) / *setup_.mass_rate, 1e-3)
                                         : std::numeric_limits<double>::infinity();

@@ -5,6 +5,7 @@
 
 #include "abradem/contact/sphere_rows.h"
 #include "abradem/core/random.h"
+#include "abradem/geometry/triangle_mesh.h"
 #include "abradem/simulation/setup.h"
 
 namespace abradem::simulation {
@@ -16,6 +17,10 @@ namespace abradem::simulation {
 [[nodiscard]] double largest_radius(const SizeSetup& size) noexcept;
 /// Of an insertion, given places included [m].
 [[nodiscard]] double smallest_radius(const InsertionSetup& insertion) noexcept;
+
+/// Bounding box of a box or a cylinder [m], and its volume [m^3].
+[[nodiscard]] geometry::BoundingBox box_of(const VolumeSetup& volume);
+[[nodiscard]] double volume_of(const VolumeSetup& volume);
 
 /// Brings the spheres of one [insertion] into the run: at once, or at a rate. Each is tried at random places
 /// of the volume until it overlaps no other; one that finds none waits, so that the size distribution is

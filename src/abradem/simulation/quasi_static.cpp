@@ -26,7 +26,7 @@ void Simulation::find_equilibrium(std::size_t p) {
   double h = 0.0;                                                      // of this search [m], along the guide
   double low = -std::numeric_limits<double>::infinity(), high = -low;  // too light at low, too heavy at high
   double last_h = 0.0, last_excess = 0.0, last_width = high;
-  bool has_last = false;
+  bool has_last = false, was_jump = false;
 
   for (int iteration = 0; iteration < kMostSteps; ++iteration) {
     double carried = 0.0, slope = 0.0, approach = 0.0;
@@ -65,7 +65,8 @@ void Simulation::find_equilibrium(std::size_t p) {
       move = -excess / (slope * (measured ? stiffness_ratio_[p] : 1.0));
       last_h = h, last_excess = excess, has_last = true;
       const double left = (measured ? kStiffnessError : 1.0) * std::abs(excess);
-      if (left <= kTolerance * load || (jump && excess > 0.0)) {
+      // What decides a jump (which of two equal places is the deepest) may go by round-off of the height.
+      if (left <= kTolerance * load || (jump && (excess > 0.0 || was_jump))) {
         particles_.position[p] += (jump ? 0.0 : move) * guide;
         for (std::size_t w = 0; w < walls_.size(); ++w)
           for (SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches()) {
@@ -82,6 +83,7 @@ void Simulation::find_equilibrium(std::size_t p) {
     if (iteration % 4 == 3) last_width = high - low;
     if (next <= low || next >= high || creeping) next = 0.5 * (low + high);
     if (jump) next = high;
+    was_jump = jump;
     particles_.position[p] += (next - h) * guide;
     h = next;
   }

@@ -21,11 +21,24 @@ struct MaterialSetup {
   bool operator==(const MaterialSetup&) const = default;
 };
 
+enum class ContactLaw { hertz_mindlin, linear };
+enum class RollingModel { constant, epsd2 };
+enum class Torsion { none, marshall };
+enum class Cohesion { none, sjkr, jkr };
+
 struct ContactSetup {
   std::string first, second;      ///< material names, any order
   double restitution = 1.0;       ///< [-]
   double static_friction = 0.0;   ///< [-]
-  double rolling_friction = 0.0;  ///< [-] constant-torque model
+  double rolling_friction = 0.0;  ///< [-]
+  ContactLaw law = ContactLaw::hertz_mindlin;
+  double normal_stiffness = 0.0;                    ///< linear [N/m]
+  std::optional<double> tangential_stiffness = {};  ///< linear [N/m]; default: 2/7 of the normal one
+  RollingModel rolling_model = RollingModel::constant;
+  Torsion torsion = Torsion::none;
+  Cohesion cohesion = Cohesion::none;
+  double cohesion_energy_density = 0.0;  ///< sjkr [J/m^3]
+  double work_of_adhesion = 0.0;         ///< jkr [J/m^2]
   bool operator==(const ContactSetup&) const = default;
 };
 

@@ -24,6 +24,27 @@ int index_of(const std::vector<T>& items, const std::string& name, const char* w
   return static_cast<int>(found - items.begin());
 }
 
+material::ContactOptions options_of(const ContactSetup& c) {
+  material::ContactOptions o;
+  if (c.law == ContactLaw::linear) {
+    o.normal_stiffness = c.normal_stiffness;
+    o.tangential_stiffness = c.tangential_stiffness.value_or(2.0 / 7.0 * c.normal_stiffness);
+    if (!(o.normal_stiffness > 0.0) || !(o.tangential_stiffness > 0.0))
+      throw InputError(
+          fmt::format("contact \"{}/{}\": a linear law needs stiffnesses > 0", c.first, c.second));
+    if (c.cohesion == Cohesion::jkr)
+      throw InputError(
+          fmt::format("contact \"{}/{}\": JKR is the adhesion of Hertz's contact; with law = "
+                      "\"linear\" take cohesion = \"sjkr\"",
+                      c.first, c.second));
+  }
+  if (c.cohesion == Cohesion::sjkr) o.cohesion = c.cohesion_energy_density;
+  if (c.cohesion == Cohesion::jkr) o.adhesion = c.work_of_adhesion;
+  o.rolling_spring = c.rolling_model == RollingModel::epsd2 && c.rolling_friction > 0.0;
+  o.torsion = c.torsion == Torsion::marshall;
+  return o;
+}
+
 }  // namespace
 
 double seconds_of(const Duration& duration, double period) {
@@ -67,10 +88,24 @@ void Simulation::find_pair_properties() {
     p.beta = material::damping_ratio(c.restitution);
     p.static_friction = c.static_friction;
     p.rolling_friction = c.rolling_friction;
+    p.options = options_of(c);
+    if (p.options.any() && setup_.run.method == Method::quasi_static)
+      throw InputError(
+          fmt::format("contact \"{}/{}\": method quasi_static balances Hertz's forces; a linear "
+                      "law, cohesion, torsion or rolling_model = \"epsd2\" want dynamic",
+                      c.first, c.second));
     pairs_[a * n + b] = pairs_[b * n + a] = p;
     given[a * n + b] = given[b * n + a] = 1;
   }
   refuse_missing_pairs(given);
+  for (const Wall& wall : walls_)
+    for (std::size_t m = 0; m < n; ++m)
+      if (!wall.is_plane() && wall.setup().contact != ContactRule::resolved &&
+          pair(static_cast<int>(m), wall.material()).options.adhesion > 0.0)
+        throw InputError(
+            fmt::format("wall '{}': JKR contacts last beyond zero overlap, which only contact = "
+                        "\"resolved\" (or a plane) can follow",
+                        wall.setup().name));
   wear_.assign(n * n, 0.0);
   laws_.assign(n * n, {});
   for (const WearSetup& w : setup_.wear) {
@@ -136,6 +171,13 @@ void Simulation::choose_accounts() {
       if (p.guide != Guide::none && p.material == w.worn)
         throw InputError(fmt::format("particle '{}' wears by Archard's law alone; \"{}/{}\" has others",
                                      p.name, w.abrader, w.worn));
+    if (laws.normal_energy > 0.0 && pair(index_of(setup_.materials, w.abrader, "material"),
+                                         index_of(setup_.materials, w.worn, "material"))
+                                        .options.any())
+      throw InputError(
+          fmt::format("wear \"{}/{}\": normal_energy_coefficient knows the damper of hertz_mindlin "
+                      "alone; leave it out, or the options of the contact",
+                      w.abrader, w.worn));
     if (setup_.run.method == Method::quasi_static && (laws.strikes() || laws.normal_energy > 0.0))
       throw InputError(fmt::format("wear \"{}/{}\": a balance of forces has no impacts; use method dynamic",
                                    w.abrader, w.worn));
@@ -187,8 +229,6 @@ double Simulation::groove_coefficient(int abrader, int worn) const {
 
 void Simulation::check_ploughing() const {
   if (!setup_.ploughing) return;
-  if (!setup_.insertions.empty() && ploughs())
-    throw InputError("[ploughing] piles up what named particles displace; with an [insertion] leave it out");
   const PloughingSetup& p = *setup_.ploughing;
   if (!(p.removed_fraction >= 0.0 && p.removed_fraction <= 1.0))
     throw InputError(

@@ -193,7 +193,12 @@ class Simulation {
   /// Volume that leaves the groove per force and sliding distance [1/Pa].
   [[nodiscard]] double groove_coefficient(int abrader, int worn) const;
   void wear_tip(std::size_t p, std::size_t w);
-  void plough(std::size_t p, std::size_t w, double groove_volume);
+  struct SlidingSphere {
+    Vec3 x, v;  // [m], [m/s]
+    double R;   // [m]
+    int material;
+  };
+  void plough(SphereWall& contact, std::size_t w, const SlidingSphere& sphere, double groove_volume);
   [[nodiscard]] bool output_due() const noexcept {
     return (steps_ + 1) % steps_per_output_ == 0 || steps_ + 1 >= total_steps_;
   }
@@ -222,10 +227,16 @@ class Simulation {
   [[nodiscard]] double slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept;
   void book_elements();
   void limit_energies();
+  void limit_bulk_energy(Vec3 low, Vec3 high, bool bounded);
   void check_state() const;
   [[nodiscard]] bool ledger_due() const noexcept;
   void check_ledger();
   void watch_stability();
+  /// Parts of the limits that the spheres of an insertion reach.
+  struct InsertionLimits {
+    double rayleigh = 0.0, hertz = 0.0, number = 0.0;
+  };
+  [[nodiscard]] InsertionLimits limits_of(const InsertionSetup& insertion) const;
 
   Setup setup_;
   std::vector<material::Material> materials_;

@@ -4,13 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "abradem/contact/full_law.h"
 #include "abradem/geometry/closest_point.h"
 
 namespace abradem::simulation {
 
 namespace {
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+/// How far a contact can be drawn out before it snaps [m].
+double stretch_of(const contact::PairProperties& pair, double R) noexcept {
+  return pair.options.adhesion > 0.0 ? contact::stretch_at_snap(contact::PairConstants::of(pair), R) : 0.0;
+}
 
 }  // namespace
 
@@ -20,7 +27,8 @@ void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
   // The Hertz footprint reaches down to half its approach below the deepest point, which in a conforming
   // groove lies outside the ball.
   const double approach = contact::hertz_overlap(pair, R, load);
-  reach_ = R + 0.5 * approach;
+  const double stretch = stretch_of(pair, R);
+  reach_ = R + std::max(0.5 * approach, stretch);
   // Skin: some tens of steps of motion, but no more than the patch can hide in.
   const double v_n = std::abs(dot(v, axis_));
   const Vec3 sliding = v - dot(v, axis_) * axis_;
@@ -47,6 +55,7 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
     touch_plane(wall, c, R, pair);
     return;
   }
+  const double stretch = stretch_of(pair, R);
   candidates_.update(wall.view(), c, axis_, reach_, skin_);
   if (stale_) note_nodes();
   touches_.clear();
@@ -69,19 +78,23 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
     }
   } else {
     const bool resolved = wall.setup().contact == ContactRule::resolved;
-    const auto points =
-        resolved ? points_.resolved(candidates_, c, R, tip_) : points_.per_triangle(candidates_, c, R, tip_);
-    for (const contact::PointContact& p : points)
-      touches_.push_back({.n = p.n,
-                          .point = p.point,
-                          .overlap = p.overlap,
-                          .elastic_force = contact::hertz_force(pair, R, p.overlap),
-                          .a = contact::contact_radius(R, p.overlap),
-                          .deepest = p.overlap,
-                          .key = resolved ? -1 : candidates_.triangle[at(p.triangle)],
-                          .part = resolved ? p.set : p.triangle,
-                          .nearest = p.triangle,
-                          .force = {}});
+    const auto points = resolved ? points_.resolved(candidates_, c, R + stretch, tip_)
+                                 : points_.per_triangle(candidates_, c, R, tip_);
+    for (const contact::PointContact& p : points) {
+      const double overlap = p.overlap - stretch, depth = std::max(overlap, 0.0);
+      if (overlap <= 0.0 && !sticking(p.n)) continue;
+      touches_.push_back(
+          {.n = p.n,
+           .point = p.point,
+           .overlap = overlap,
+           .elastic_force = contact::hertz_force(pair, R, depth),
+           .a = contact::contact_radius(R, depth),
+           .deepest = p.overlap,  // in the field of the stretched sphere, whose differences count
+           .key = resolved ? -1 : candidates_.triangle[at(p.triangle)],
+           .part = resolved ? p.set : p.triangle,
+           .nearest = p.triangle,
+           .force = {}});
+    }
   }
   if (!touches_.empty()) axis_ = -touches_.front().n;
 }
@@ -90,13 +103,14 @@ void SphereWall::touch_plane(const Wall& wall, const Vec3& c, double R, const co
   const MeshSetup& plane = wall.setup().mesh;
   double overlap = R - dot(c - plane.position, plane.normal);
   if (tip_.worn()) overlap = tip_.overlap((overlap - R) * plane.normal, R);
-  if (overlap <= 0.0) return;
+  if (overlap <= 0.0 && !(pair.options.adhesion > 0.0 && sticking(plane.normal))) return;
+  const double depth = std::max(overlap, 0.0);
   touches_.push_back({.n = plane.normal,
                       .point = c - R * plane.normal,
                       .overlap = overlap,
-                      .elastic_force = contact::hertz_force(pair, R, overlap),
-                      .a = contact::contact_radius(R, overlap),
-                      .deepest = overlap,
+                      .elastic_force = contact::hertz_force(pair, R, depth),
+                      .a = contact::contact_radius(R, depth),
+                      .deepest = depth,
                       .key = -1,
                       .part = 0,
                       .nearest = -1,
@@ -150,11 +164,52 @@ wear::WorkSample SphereWall::work_of(const Touch& touch, double slip, double mas
           .normal_loss = damper > 0.0 ? by_damper * by_damper / damper * dt : 0.0};
 }
 
-void SphereWall::add_strike(const wear::Laws& laws, std::size_t i, double R, double mass,
-                            wear::MechanismVolumes& volumes, wear::ImpactSpectrum& impacts) const noexcept {
-  const wear::Impact impact{memory_[i].speed, memory_[i].angle, mass, 2.0 * R};
+void SphereWall::add_strike(const wear::Laws& laws, const Memory& memory, double R, double mass,
+                            wear::MechanismVolumes& volumes, wear::ImpactSpectrum& impacts) noexcept {
+  const wear::Impact impact{memory.speed, memory.angle, mass, 2.0 * R};
   wear::add_impact(laws, impact, volumes);
   impacts.add(impact, volumes);
+}
+
+/// Does a contact that faces this way last from the step before?
+bool SphereWall::sticking(const Vec3& n) const noexcept {
+  return std::ranges::any_of(memory_, [&](const Memory& m) { return dot(m.n, n) > 0.9; });
+}
+
+/// One contact by the law of pairs with options; the torque is beside that of the lever arm. In the wall's
+/// frame.   @return whether it is still there
+bool SphereWall::compute_with_options(Touch& touch, const Vec3& v, const SphereState& sphere,
+                                      const Vec3& spin, const contact::PairProperties& pair, double dt,
+                                      contact::TangentialHistory& history, Vec3& torque) const {
+  contact::ContactChunk c;
+  contact::OptionsChunk o;
+  const double R = sphere.radius, a = touch.overlap > 0.0 ? touch.overlap * (2.0 * R - touch.overlap) : 0.0;
+  const contact::PairConstants constants = contact::PairConstants::of(pair);
+  c.set_constants(0, constants);
+  o.set_constants(0, constants);
+  // The contact rule knows the elastic force; a patch in a groove is stiffer than Hertz on a plane.
+  const double plane = touch.overlap > 0.0 ? contact::hertz_force(pair, R, touch.overlap) : 0.0;
+  if (plane > 0.0) c.elastic[0] *= touch.elastic_force / plane;
+  c.nx[0] = touch.n.x, c.ny[0] = touch.n.y, c.nz[0] = touch.n.z;
+  c.vx[0] = v.x, c.vy[0] = v.y, c.vz[0] = v.z;
+  c.sx[0] = history.s.x, c.sy[0] = history.s.y, c.sz[0] = history.s.z;
+  c.overlap[0] = touch.overlap, c.R_eff[0] = R, c.m_eff[0] = sphere.mass;
+  o.area[0] = std::numbers::pi * a;
+  o.a_c[0] = contact::snapping_radius(constants, R);
+  o.wx[0] = spin.x, o.wy[0] = spin.y, o.wz[0] = spin.z;
+  o.mx[0] = history.rolling.x, o.my[0] = history.rolling.y, o.mz[0] = history.rolling.z;
+  o.twist[0] = history.twist;
+  o.inertia[0] = 0.4 * sphere.mass * R * R;
+  for (std::size_t k = 1; k < 8; ++k) c.copy(0, k), o.copy(0, k);
+  contact::full_law_loop(c, o, 8, dt);
+  if (pair.options.adhesion > 0.0) touch.a = o.S_t[0] / constants.tangential;
+  touch.force.F_n = c.F_n[0];
+  touch.force.F_t = Vec3{c.fx[0], c.fy[0], c.fz[0]} - c.F_n[0] * touch.n;
+  touch.force.slip = c.slip[0] > 0.0 ? c.slip[0] / o.S_t[0] : 0.0;
+  touch.force.v_t = norm(v - dot(v, touch.n) * touch.n);
+  history = {{c.sx[0], c.sy[0], c.sz[0]}, {o.mx[0], o.my[0], o.mz[0]}, o.twist[0]};
+  torque = {o.wx[0], o.wy[0], o.wz[0]};
+  return o.parted[0] == 0.0;
 }
 
 ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose, const SphereState& sphere,
@@ -170,8 +225,23 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
     contact::ContactState state{touch.n, touch.elastic_force, touch.a, sphere.mass, pose.turn_back(v)};
     if (wall.is_belt()) state.v -= wall.belt_velocity(touch.n);
     Memory& memory = recall(touch, wall.setup().contact);
-    touch.force = contact::hertz_mindlin(pair, state, dt, memory.history);
+    touch.memory = static_cast<int>(kept_.size()) - 1;
     if (wall.watches_impacts()) watch_impact(memory, touch.n, state.v);
+    if (pair.options.any()) {
+      Vec3 torque;
+      const Vec3 spin = pose.turn_back(sphere.spin - pose.spin);
+      if (!compute_with_options(touch, state.v, sphere, spin, pair, dt, memory.history, torque)) {
+        kept_.pop_back();
+        touch.memory = -1;
+        continue;
+      }
+      const Vec3 tangential = pose.turn(touch.force.F_t);
+      total.force += touch.force.F_n * n + tangential;
+      total.torque += cross(arm, tangential) + pose.turn(torque);
+      rolling_ += pose.turn(torque);
+      continue;
+    }
+    touch.force = contact::hertz_mindlin(pair, state, dt, memory.history);
     const Vec3 tangential = pose.turn(touch.force.F_t);
     total.force += touch.force.F_n * n + tangential;
     const double I = 0.4 * sphere.mass * sphere.radius * sphere.radius;
@@ -510,7 +580,11 @@ bool SphereWall::restore(const Wall& wall) {
 }
 
 void SphereWall::add_to(core::StateHash& hash) const {
-  for (const Memory& m : memory_) hash.add(m.history.s);
+  for (const Memory& m : memory_) {
+    hash.add(m.history.s);
+    if (m.history.rolling != Vec3{}) hash.add(m.history.rolling);
+    if (m.history.twist != 0.0) hash.add(m.history.twist);
+  }
   if (tip_pending_ != 0.0) hash.add(tip_pending_);
   if (unpiled_ != 0.0) hash.add(unpiled_);
 }

@@ -61,6 +61,7 @@ class SphereWall {
     int part = 0;                ///< patch or flat set that it stands for
     int nearest = -1;            ///< point contacts: candidate triangle that holds the nearest point
     contact::ContactForce force;
+    int memory = -1;  ///< place of its memory in this step; -1: none
 
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
@@ -113,11 +114,11 @@ class SphereWall {
                          SlipOf&& slip_of) {
     const double R = sphere.radius, mass = sphere.mass;
     double volume = 0.0;
-    for (std::size_t i = 0; i < touches_.size(); ++i) {
-      const Touch& touch = touches_[i];
+    for (const Touch& touch : touches_) {
       wear::MechanismVolumes volumes{};
       wear::add_work(laws, work_of(touch, slip_of(touch), mass, pair, dt), volumes);
-      if (i < memory_.size() && memory_[i].striking) add_strike(laws, i, R, mass, volumes, account.impacts);
+      if (touch.memory >= 0 && memory_[static_cast<std::size_t>(touch.memory)].striking)
+        add_strike(laws, memory_[static_cast<std::size_t>(touch.memory)], R, mass, volumes, account.impacts);
       const double dV = wear::total(volumes);
       if (dV > 0.0) deposit_one(wall, touch, dV, R, pair);
       volume += dV;
@@ -250,8 +251,12 @@ class SphereWall {
   static void watch_impact(Memory& memory, const Vec3& n, const Vec3& v) noexcept;
   [[nodiscard]] static wear::WorkSample work_of(const Touch& touch, double slip, double mass,
                                                 const contact::PairProperties& pair, double dt) noexcept;
-  void add_strike(const wear::Laws& laws, std::size_t i, double R, double mass,
-                  wear::MechanismVolumes& volumes, wear::ImpactSpectrum& impacts) const noexcept;
+  static void add_strike(const wear::Laws& laws, const Memory& memory, double R, double mass,
+                         wear::MechanismVolumes& volumes, wear::ImpactSpectrum& impacts) noexcept;
+  [[nodiscard]] bool sticking(const Vec3& n) const noexcept;
+  bool compute_with_options(Touch& touch, const Vec3& v, const SphereState& sphere, const Vec3& spin,
+                            const contact::PairProperties& pair, double dt,
+                            contact::TangentialHistory& history, Vec3& torque) const;
   void add_centroid_motion(const Wall& wall);
   void note_nodes();
   [[nodiscard]] bool inside(std::size_t t) const noexcept;

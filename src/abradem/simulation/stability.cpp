@@ -4,36 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "abradem/core/error.h"
 #include "abradem/simulation/simulation.h"
+#include "abradem/simulation/stability.h"
 
 namespace abradem::simulation {
 
 namespace {
 
-/// Of a mass M on parallel contacts: their stiffnesses and damping coefficients as the scheme sees them.
-struct Scheme {
-  double g = 0.0;  ///< (sum of c) dt / M
-  double W = 0.0;  ///< (sum of S) dt^2 / M
-
-  /// Symplectic Euler is stable while this is below 4.
-  [[nodiscard]] double number() const noexcept { return 2.0 * g + W; }
-  /// What a small disturbance is multiplied by in one step, at most: the larger root of
-  /// lambda^2 - (2 - g - W) lambda + (1 - g).
-  [[nodiscard]] double growth() const noexcept {
-    const double t = 2.0 - g - W, d = 1.0 - g, inside = 0.25 * t * t - d;
-    return inside > 0.0 ? 0.5 * std::abs(t) + std::sqrt(inside) : std::sqrt(d);
-  }
-};
-
 Scheme scheme_of(double stiffness, double damping, double mass, double dt) noexcept {
   return {damping * dt / mass, stiffness * dt * dt / mass};
-}
-
-/// The longest step that is stable: 2 c dt + S dt^2 = 4 M.
-double stable_step(double stiffness, double damping, double mass) noexcept {
-  return 4.0 * mass / (damping + std::sqrt(damping * damping + 4.0 * stiffness * mass));
 }
 
 }  // namespace
@@ -42,17 +24,19 @@ double stable_step(double stiffness, double damping, double mass) noexcept {
 /// of the scheme and not of the contact. A peak of few steps is none; what grows a thousandfold is.
 void Simulation::watch_stability() {
   if (setup_.run.method == Method::quasi_static) return;
-  if (bulk_) worst_damping_ = std::max(worst_damping_, bulk_->worst_stability());
-  const double kLargestGrowth = std::log(1e3);
+  if (bulk_) {
+    bulk_->watch_stability(surroundings(), steps_, setup_.run.stability);
+    worst_damping_ = std::max(worst_damping_, bulk_->worst_stability());
+  }
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     double stiffness = 0.0, damping = 0.0;
     std::size_t contacts = 0;
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       const auto& properties = pair(particles_.material[p], walls_[w].material());
       for (const SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches()) {
-        const double S = contact::normal_stiffness(properties, t.a);
+        const double S = contact::step_stiffness(properties, t.a);
         stiffness += S;
-        damping += contact::damping_coefficient(properties, S, particles_.mass[p]);
+        damping += contact::step_damping(properties, S, particles_.mass[p]);
         ++contacts;
       }
     }
@@ -60,7 +44,7 @@ void Simulation::watch_stability() {
     const Scheme scheme = scheme_of(stiffness, damping, particles_.mass[p], dt_);
     worst_damping_ = std::max(worst_damping_, scheme.number());
     // Stable steps let it decay again; never below what it began with.
-    if (scheme.number() > 4.0 || growth_[p] > 0.0)
+    if (scheme.number() > Scheme::kLimit || growth_[p] > 0.0)
       growth_[p] = std::max(0.0, growth_[p] + std::log(scheme.growth()));
     if (growth_[p] < kLargestGrowth || setup_.run.stability == Stability::warn) continue;
     throw SimulationError(fmt::format(
@@ -68,9 +52,40 @@ void Simulation::watch_stability() {
         "together {:.4g} N/m and {:.4g} N s/m, stable below 4; a disturbance has grown a thousandfold. Take "
         "run.time_step below {:.3g} s{}; run.stability = \"warn\" goes on nevertheless",
         particles_.name[p], steps_, time(), scheme.number(), contacts, stiffness, damping,
-        stable_step(stiffness, damping, particles_.mass[p]),
+        scheme.stable_step(dt_),
         contacts > 1 ? ", or contact = \"patch\", where the triangles share one damper" : ""));
   }
+}
+
+/// Of the smallest spheres of an insertion, that meet each other and the walls with the largest speed met,
+/// before the run that which they are given.
+Simulation::InsertionLimits Simulation::limits_of(const InsertionSetup& i) const {
+  InsertionLimits limits;
+  const auto index_of = [this](const std::string& name) {
+    return static_cast<int>(std::ranges::find(setup_.materials, name, &MaterialSetup::name) -
+                            setup_.materials.begin());
+  };
+  const int m = index_of(i.material);
+  const material::Material& material = materials_[static_cast<std::size_t>(m)];
+  const double R = smallest_radius(i);
+  const double mass = material.density * 4.0 / 3.0 * std::numbers::pi * R * R * R;
+  limits.rayleigh = dt_ / material::rayleigh_time(material, R);
+  double speed = std::max(norm(i.velocity), bulk_->fastest());
+  for (const PlacedSphere& s : i.placed) speed = std::max(speed, norm(s.velocity));
+  if (speed == 0.0) return limits;
+  const auto meet = [&](const contact::PairProperties& properties, double R_eff, double m_eff) {
+    limits.hertz = std::max(limits.hertz, dt_ / material::hertz_time(properties.E_eff, R_eff, m_eff, speed));
+    // Where all of m v^2 / 2 is in the contact: (8/15) E sqrt(R) overlap^(5/2).
+    const double overlap =
+        std::pow(15.0 * m_eff * speed * speed / (16.0 * properties.E_eff * std::sqrt(R_eff)), 0.4);
+    const double S = contact::normal_stiffness(properties, contact::contact_radius(R_eff, overlap));
+    const double c = contact::damping_coefficient(properties, S, m_eff);
+    limits.number = std::max(limits.number, scheme_of(S, c, m_eff, dt_).number());
+  };
+  for (const InsertionSetup& other : setup_.insertions)
+    meet(pair(m, index_of(other.material)), 0.5 * R, 0.5 * mass);
+  for (const Wall& wall : walls_) meet(pair(m, wall.material()), R, mass);
+  return limits;
 }
 
 std::vector<StabilityLimit> Simulation::limits() const {
@@ -88,23 +103,23 @@ std::vector<StabilityLimit> Simulation::limits() const {
       const double given = norm(setup_.particles[p].velocity);
       const double speed = given > 0.0 ? given : std::sqrt(2.0 * load * overlap / mass);
       if (speed > 0.0) hertz = std::max(hertz, dt_ / material::hertz_time(properties.E_eff, R, mass, speed));
-      const double S = contact::normal_stiffness(properties, contact::contact_radius(R, overlap));
+      const double S = contact::step_stiffness(properties, contact::contact_radius(R, overlap));
       if (steps_ == 0)
-        number = std::max(
-            number, scheme_of(S, contact::damping_coefficient(properties, S, mass), mass, dt_).number());
+        number =
+            std::max(number, scheme_of(S, contact::step_damping(properties, S, mass), mass, dt_).number());
     }
   }
   for (const InsertionSetup& i : setup_.insertions) {
-    const auto m =
-        std::ranges::find(setup_.materials, i.material, &MaterialSetup::name) - setup_.materials.begin();
-    rayleigh = std::max(
-        rayleigh, dt_ / material::rayleigh_time(materials_[static_cast<std::size_t>(m)], smallest_radius(i)));
+    const InsertionLimits met = limits_of(i);
+    rayleigh = std::max(rayleigh, met.rayleigh);
+    hertz = std::max(hertz, met.hertz);
+    if (steps_ == 0) number = std::max(number, met.number);
   }
   return {{"time step / Rayleigh time", rayleigh, 0.4, "-"},
           {"time step / Hertz impact time", hertz, 0.1, "-"},
-          {steps_ == 0 ? "contact damping and stiffness, one contact at the load (2g + W)"
+          {steps_ == 0 ? "contact damping and stiffness, one contact at the load or in an impact (2g + W)"
                        : "contact damping and stiffness, worst step (2g + W)",
-           number, 4.0, "-"}};
+           number, Scheme::kLimit, "-"}};
 }
 
 }  // namespace abradem::simulation

@@ -69,8 +69,10 @@ void Simulation::limit_energies() {
   }
   const double extent = norm(high - low);
   energy_limit_.assign(particles_.size(), 0.0);
-  if (!setup_.insertions.empty()) {  // whatever comes in may hit them
+  if (!setup_.insertions.empty()) {
+    // Whatever comes in may hit them.
     energy_limit_.assign(particles_.size(), std::numeric_limits<double>::infinity());
+    limit_bulk_energy(low, high, bounded);
     return;
   }
   for (std::size_t p = 0; p < particles_.size(); ++p) {
@@ -82,20 +84,68 @@ void Simulation::limit_energies() {
     double hit = start;
     for (const Wall& wall : walls_) hit = std::max(hit, 2.0 * fastest(wall.setup().motion, extent));
     energy_limit_[p] = kExplosion * (0.5 * m * hit * hit + force * way);
-    double elastic = 0.0;  // of a particle that starts as deep in a wall as it may
-    for (const Wall& wall : walls_) {
-      const double overlap = kDeepest * R;
-      elastic = std::max(
-          elastic,
-          0.4 * overlap * contact::hertz_force(pair(particles_.material[p], wall.material()), R, overlap));
-    }
-    energy_limit_[p] += elastic;
+    double stored = 0.0;  // in a contact that starts as deep as it may, or is drawn together so far
+    const auto contact_with = [&](int material) {
+      const contact::PairProperties& c = pair(particles_.material[p], material);
+      const double overlap = kDeepest * R, area = 2.0 * std::numbers::pi * R * overlap;
+      const double cohesive = (c.options.cohesion * overlap + c.options.adhesion) * area;
+      stored = std::max(stored, 0.4 * overlap * contact::hertz_force(c, R, overlap) + cohesive);
+    };
+    for (const Wall& wall : walls_) contact_with(wall.material());
+    for (std::size_t q = 0; q < particles_.size(); ++q)
+      if (q != p && pair(particles_.material[p], particles_.material[q]).options.any())
+        contact_with(particles_.material[q]);
+    energy_limit_[p] += stored;
   }
   // Particles hand on their energies to one another.
   double whole = 0.0;
   for (const double e : energy_limit_) whole += e;
   for (double& e : energy_limit_)
     if (particles_.size() > 1) e = whole;
+}
+
+/// The same for particles in numbers, per mass, and so for their speed. Between spheres of different size a
+/// light one may leave with some times the speed of the heavy one; with ten times that of all sources none
+/// does.
+void Simulation::limit_bulk_energy(Vec3 low, Vec3 high, bool bounded) {
+  constexpr double kExplosion = 100.0;
+  const auto include = [&](const Vec3& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  };
+  double hit = 0.0, elastic = 0.0, pull = norm(setup_.run.gravity);
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    hit = std::max(hit, norm(particles_.velocity[p]));
+    pull = std::max(pull, norm(setup_.run.gravity) + norm(particles_.load[p]) / particles_.mass[p]);
+  }
+  for (const InsertionSetup& i : setup_.insertions) {
+    hit = std::max(hit, norm(i.velocity));
+    for (const PlacedSphere& s : i.placed) {
+      include(s.position);
+      hit = std::max(hit, norm(s.velocity));
+    }
+    if (i.placed.empty()) {
+      const geometry::BoundingBox box = box_of(i.volume);
+      include(box.low);
+      include(box.high);
+    }
+    // Of a sphere that starts as deep in another one as it may.
+    const auto m = std::ranges::find(setup_.materials, i.material, &MaterialSetup::name);
+    const auto k = static_cast<int>(m - setup_.materials.begin());
+    const double R = smallest_radius(i), overlap = 2.0 * kDeepest * R;
+    const double mass =
+        materials_[static_cast<std::size_t>(k)].density * 4.0 / 3.0 * std::numbers::pi * R * R * R;
+    elastic = std::max(elastic, 0.4 * overlap * contact::hertz_force(pair(k, k), R, overlap) / mass);
+  }
+  if (setup_.domain) {
+    include(setup_.domain->low);
+    include(setup_.domain->high);
+  }
+  const double extent = norm(high - low);
+  for (const Wall& wall : walls_) hit = std::max(hit, 2.0 * fastest(wall.setup().motion, extent));
+  double way = extent;
+  if (!bounded && !setup_.domain) way += hit * end_ + 0.5 * pull * end_ * end_;
+  bulk_->limit_speed(std::sqrt(2.0 * kExplosion * (0.5 * hit * hit + pull * way + elastic)));
 }
 
 void Simulation::check_state() const {

@@ -32,7 +32,10 @@ void Simulation::accumulate_wear() {
             wall, alpha_s, particles_.radius[p], pair(particles_.material[p], wall.material()),
             [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); });
         if (ploughs())
-          plough(p, w, volume);
+          plough(
+              sphere_walls_[p * walls_.size() + w], w,
+              {particles_.position[p], particles_.velocity[p], particles_.radius[p], particles_.material[p]},
+              volume);
         else
           law_[w] += volume;
       }
@@ -45,8 +48,6 @@ void Simulation::accumulate_wear() {
     const contact::SphereRow& s = bulk_->spheres().row[static_cast<std::size_t>(m.sphere)];
     const auto w = static_cast<std::size_t>(m.wall);
     const auto material = static_cast<int>(s.material);
-    const double alpha_s = wear_coefficient(material, walls_[w].material());
-    if (m.contact->touches().empty()) continue;
     if (by_laws_[w] != 0) {
       law_[w] += m.contact->deposit_by_laws(
           walls_[w], wear_laws(material, walls_[w].material()), {{}, {}, {}, s.radius, 1.0 / s.inverse_mass},
@@ -54,9 +55,15 @@ void Simulation::accumulate_wear() {
           [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
       continue;
     }
-    if (alpha_s == 0.0) continue;
-    law_[w] += m.contact->deposit(walls_[w], alpha_s, s.radius, pair(material, walls_[w].material()),
-                                  [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
+    const double alpha_s = groove_coefficient(material, walls_[w].material());
+    if (alpha_s == 0.0 || (m.contact->touches().empty() && m.contact->unpiled_volume() == 0.0)) continue;
+    const double volume =
+        m.contact->deposit(walls_[w], alpha_s, s.radius, pair(material, walls_[w].material()),
+                           [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
+    if (ploughs())
+      plough(*m.contact, w, {s.position(), s.velocity(), s.radius, material}, volume);
+    else
+      law_[w] += volume;
   }
 }
 
@@ -130,7 +137,8 @@ void Simulation::wear_tip(std::size_t p, std::size_t w) {
 }
 
 /// Of what leaves the groove the removed fraction is lost, and the rest is piled up beside the contact.
-void Simulation::plough(std::size_t p, std::size_t w, double groove_volume) {
+void Simulation::plough(SphereWall& contact, std::size_t w, const SlidingSphere& sphere,
+                        double groove_volume) {
   // Piles may lie apart where many passes share them.
   constexpr double kRevolutions = 24.0, kNearest = 0.5, kFurthest = 8.0;
   const double removed = removed_fraction() * groove_volume, displaced = groove_volume - removed;
@@ -139,19 +147,18 @@ void Simulation::plough(std::size_t p, std::size_t w, double groove_volume) {
   Wall& wall = walls_[w];
   if (wall.is_plane()) return;
   const geometry::Pose& pose = poses_[w];
-  const Vec3& u = particles_.velocity[p];
-  const Vec3 sliding = u - pose.velocity_at(particles_.position[p]), v = pose.turn_back(sliding);
+  const Vec3 sliding = sphere.v - pose.velocity_at(sphere.x), v = pose.turn_back(sliding);
   // The path over a wall that turns bends, by Coriolis' and the centrifugal acceleration.
   const double speed2 = norm2(sliding);
   const Vec3 turning =
-      speed2 > 0.0 ? pose.turn_back(cross(pose.spin, u + sliding)) * (-1.0 / speed2) : Vec3{};
+      speed2 > 0.0 ? pose.turn_back(cross(pose.spin, sphere.v + sliding)) * (-1.0 / speed2) : Vec3{};
   const double n = period_ > 0.0 ? end_ / period_ : 0.0;
   const wear::Ploughing ploughing{removed_fraction(), std::tan(setup_.ploughing->ridge_angle),
                                   setup_.ploughing->ahead};
-  sphere_walls_[p * walls_.size() + w].plough(
+  contact.plough(
       wall, ploughing,
       {displaced, v, turning, norm(v) * dt_, std::clamp(n / kRevolutions, kNearest, kFurthest), output_due()},
-      particles_.radius[p], pair(particles_.material[p], wall.material()));
+      sphere.R, pair(sphere.material, wall.material()));
 }
 
 /// Brings the surfaces' record of worn elements up to date; in the order of particles, so that the sums do
@@ -176,6 +183,7 @@ Ledger Simulation::ledger() {
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     const Wall& wall = walls_[w];
     if (wall.is_plane()) continue;
+    double unpiled = bulk_ ? bulk_->walls().unplaced(w) : 0.0;
     for (std::size_t p = 0; p < particles_.size(); ++p)
       if (wall.setup().deformation == DeformationRule::conserving)
         paper_[w] += sphere_walls_[p * walls_.size() + w].take_centroid_volume(wall);
@@ -185,9 +193,9 @@ Ledger Simulation::ledger() {
         if (wall.setup().deformation == DeformationRule::conserving)
           paper_[w] += m.contact->take_centroid_volume(wall);
         ledger.deposited += m.contact->pending_volume();
+        unpiled += m.contact->unpiled_volume();
       }
     const double swept = wall.surface().swept_volume();
-    double unpiled = 0.0;
     ledger.law += law_[w];
     ledger.deposited += wall.surface().deposited_volume();
     for (std::size_t p = 0; p < particles_.size(); ++p) {

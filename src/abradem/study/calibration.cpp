@@ -13,6 +13,7 @@
 #include <mutex>
 
 #include "abradem/core/error.h"
+#include "abradem/core/parallel.h"
 
 namespace abradem::study {
 
@@ -41,13 +42,13 @@ double passes_smoothly(std::span<const double> x, std::span<const double> y, dou
 template <typename Work>
 void in_parallel(std::size_t count, Work&& work) {
   std::vector<std::exception_ptr> errors(count);
-  const auto n = static_cast<std::ptrdiff_t>(count);
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::ptrdiff_t i = 0; i < n; ++i) try {
-      work(static_cast<std::size_t>(i));
+  core::parallel_blocks(count, [&](std::size_t i) {
+    try {
+      work(i);
     } catch (...) {
-      errors[static_cast<std::size_t>(i)] = std::current_exception();
+      errors[i] = std::current_exception();
     }
+  });
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
 }

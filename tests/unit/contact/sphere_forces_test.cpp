@@ -139,6 +139,64 @@ TEST_P(SphereForces, AreThoseOfTheLawPairByPairWhileTheOrderChanges) {
 
 INSTANTIATE_TEST_SUITE_P(Rolling, SphereForces, testing::Values(0.0, 0.05));
 
+TEST(SphereForces, WithOptionsThatAreOffAreThoseWithout) {
+  for (const double rolling : {0.0, 0.05}) {
+    PairTable plain = table_of(two_materials(rolling)), full = plain;
+    full.options = full.adhesion = true;
+    Spheres a = crowd(1500, 7), b = a;
+    SphereList of_a, of_b;
+    of_b.remember_torques();
+    std::vector<LoadRow> on_a, on_b;
+    for (int step = 0; step < 30; ++step) {
+      if (step % 8 == 0) of_a.rebuild(a, kSkin), of_b.rebuild(b, kSkin);
+      ASSERT_TRUE(sphere_forces(a, of_a, plain, kDt, on_a));
+      ASSERT_TRUE(sphere_forces(b, of_b, full, kDt, on_b));
+      double largest = 0.0;
+      for (const LoadRow& l : on_a) largest = std::max(largest, norm(l.force()));
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        ASSERT_LT(norm(on_a[i].force() - on_b[i].force()), 1e-12 * largest);
+        ASSERT_LT(norm(on_a[i].torque() - on_b[i].torque()), 1e-12 * largest * 3e-3);
+      }
+      advance_spheres(a.row, on_a, {}, kDt);
+      advance_spheres(b.row, on_b, {}, kDt);
+    }
+  }
+}
+
+TEST(SphereForces, WithOptionsActOnBothAndDoNotDependOnThreadsOrOrder) {
+  std::vector<PairProperties> properties = two_materials(0.05);
+  for (PairProperties& p : properties) p.options.rolling_spring = p.options.torsion = true;
+  properties[0].options.adhesion = 0.2;
+  properties[1].options.cohesion = properties[2].options.cohesion = 1e4;
+  PairTable table = table_of(properties);
+  table.options = table.adhesion = true;
+  std::vector<LoadRow> first;
+  const int before = omp_get_max_threads();
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    Spheres spheres = crowd(4000, 3);
+    SphereList list;
+    list.remember_torques();
+    std::vector<LoadRow> load;
+    for (int step = 0; step < 20; ++step) {
+      if (step % 7 == 0) list.rebuild(spheres, kSkin);
+      ASSERT_TRUE(sphere_forces(spheres, list, table, kDt, load));
+      advance_spheres(spheres.row, load, {}, kDt);
+    }
+    Vec3 sum;
+    double largest = 0.0;
+    for (const LoadRow& l : load) sum += l.force(), largest = std::max(largest, norm(l.force()));
+    EXPECT_GT(largest, 0.0);
+    EXPECT_LT(norm(sum), 1e-10 * largest);
+    if (first.empty()) first = load;
+    for (std::size_t i = 0; i < load.size(); ++i) {
+      ASSERT_EQ(load[i].force(), first[i].force()) << threads << " threads, sphere " << i;
+      ASSERT_EQ(load[i].torque(), first[i].torque()) << threads << " threads, sphere " << i;
+    }
+  }
+  omp_set_num_threads(before);
+}
+
 TEST(SphereForces, AreTheSameBitsForAnyNumberOfThreads) {
   const PairTable table = table_of(two_materials(0.02));
   std::vector<LoadRow> first;

@@ -97,6 +97,64 @@ TEST(InsertionCase, RefusesWhatCannotBe) {
             std::string::npos);
 }
 
+struct Slip {
+  const char* said;   ///< in the case
+  const char* wrong;  ///< instead of it
+  const char* asked;  ///< a part of the question
+};
+
+class InsertionUnitSlip : public testing::TestWithParam<Slip> {};
+
+TEST_P(InsertionUnitSlip, IsAskedAboutInWords) {
+  const Slip& slip = GetParam();
+  std::string text =
+      std::string(kHead) + kPair + kFeed + "[wall.tray]\nmaterial = \"steel\"\n" +
+      "mesh = { shape = \"plate\", length = 0.4, width = 0.4, size = 0.1, position = [0, 0, -0.01] }\n";
+  const auto notes = [&] {
+    std::string all;
+    for (const std::string& note : parse_case(text, "case.toml", {}, {}).notes) all += note;
+    return all;
+  };
+  EXPECT_EQ(notes(), "");
+  const std::size_t at = text.find(slip.said);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, std::string(slip.said).size(), slip.wrong);
+  const std::string asked = notes();
+  EXPECT_NE(asked.find(slip.asked), std::string::npos) << asked;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, InsertionUnitSlip,
+    testing::Values(
+        Slip{"density = 2500", "density = 2.5", "less than foam: is it in g/cm^3? Then write \"2.5 g/cm^3\""},
+        Slip{"mass_rate = \"0.5 kg/s\"", "mass_rate = 500",
+             "mass_rate = 500 kg/s of 'feed' is 211 times what can fall out of its volume"},
+        Slip{"mass_rate = \"0.5 kg/s\"", "mass_rate = \"0.5 mg/s\"",
+             "less than one of its largest particles, 0.00067 kg: is it in another unit?"},
+        Slip{"number = 500\nmass_rate = \"0.5 kg/s\"", "mass = 900",
+             "mass = 900 kg of 'feed' is 1.43e+03 times what its volume of 0.0002513 m^3 would hold"},
+        Slip{"number = 500\nmass_rate = \"0.5 kg/s\"", "mass = \"0.5 g\"",
+             "mass = 0.0005 kg of 'feed' is less than one of its largest particles, 0.0006702 kg"},
+        Slip{"{ kind = \"normal\", mean = \"3 mm\", sd = \"0.3 mm\", low = \"2 mm\", high = \"4 mm\" }",
+             "{ radius = \"3 um\" }",
+             "'feed' has particles of at most 0.003 mm radius in a volume of 0.0002513 m^3"},
+        Slip{"{ kind = \"normal\", mean = \"3 mm\", sd = \"0.3 mm\", low = \"2 mm\", high = \"4 mm\" }",
+             "{ radius = \"30 um\" }", "wall 'tray' is 400 mm wide and 'feed' has a radius of"},
+        Slip{"number = 500", "number = 500\nvelocity = [0, 0, -500]",
+             "particles of 'feed' start at 500 m/s: is their velocity in mm/s?"}));
+
+/// Sizes in millimetres read as metres cannot lie in the volume: refused.
+TEST(InsertionCase, RefusesSizesInMillimetresReadAsMetres) {
+  std::string text = std::string(kHead) + kPair + kFeed;
+  const std::string size =
+      "{ kind = \"normal\", mean = \"3 mm\", sd = \"0.3 mm\", low = \"2 mm\", high = \"4 mm\" }";
+  text.replace(text.find(size), size.size(), "{ radius = 3 }");
+  EXPECT_NE(
+      refusal(text).find("is too small for one sphere of 3000 mm radius: are the sizes in millimetres?"),
+      std::string::npos)
+      << refusal(text);
+}
+
 TEST(InsertionCase, ReadsPlacesAndSizesFromFiles) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "abradem_insertion_case";
   std::filesystem::create_directories(folder);

@@ -109,6 +109,25 @@ TEST_F(VtpFile, WhatIsNoTriangulatedSurfaceIsRefused) {
   EXPECT_NE(message(ascii("0 1 2 1 x 2")).find("'x', expected a number"), std::string::npos);
 }
 
+TEST_F(VtpFile, CountsThatCannotBeAreRefused) {
+  const auto with_count = [&](const std::string& count) {
+    std::string text = ascii();
+    text.replace(text.find("NumberOfPoints=\"4\""), 18, "NumberOfPoints=\"" + count + "\"");
+    return message(text);
+  };
+  for (const char* count : {"-1", "4.5", "1e300", "nan", "6148914691236517206"})
+    EXPECT_NE(
+        with_count(count).find("NumberOfPoints is '" + std::string(count) + "', expected a whole number"),
+        std::string::npos)
+        << with_count(count);
+  std::string none = ascii();
+  none.replace(none.find("<Points>"), 8, "<Pointz>");
+  EXPECT_NE(message(none).find("states 4 points, and has no <Points> that hold them"), std::string::npos);
+  std::string far = ascii();
+  far.replace(far.find("1 1 -0.25"), 9, "1 1 inf  ");
+  EXPECT_NE(message(far).find("point 3 is not finite"), std::string::npos) << message(far);
+}
+
 TEST_F(VtpFile, AMissingFileIsNamed) {
   try {
     (void)read_vtp(file_);

@@ -102,6 +102,26 @@ TEST(State, OfAWornTipAndOfRidgesGoesOnToTheSameBits) {
   }
 }
 
+TEST(State, OfRidgesOfParticlesInNumbersGoesOnToTheSameBits) {
+  test::PinOnDisc pin = small_case();
+  pin.method = Method::dynamic;
+  simulation::Setup setup = pin.setup();
+  setup.particles.clear();
+  setup.contacts[0].static_friction = 0.05;  // they slip in every impact
+  setup.contacts.push_back({"iron_ore", "iron_ore", 0.4, 0.5, 0.02});
+  setup.run.gravity = {0.0, 0.0, -9.81};
+  setup.ploughing = PloughingSetup{.removed_fraction = 0.6};
+  InsertionSetup grains;
+  grains.name = "grains";
+  grains.material = "iron_ore";
+  for (int k = 0; k < 6; ++k)
+    grains.placed.push_back(
+        {{pin.track, 0.61e-3 * (k - 3), 0.29e-3}, 0.3e-3, {0.05, k % 2 == 0 ? 0.4 : -0.4, -0.3}});
+  setup.insertions.push_back(grains);
+  setup.output.every = {0.001, true};
+  expect_same_bits_from_anywhere(setup, 3000);
+}
+
 TEST(State, GoesOnToTheSameBitsOnOtherThreads) {
   test::PinOnDisc pin = small_case();
   pin.method = Method::dynamic;
