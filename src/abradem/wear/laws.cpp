@@ -6,7 +6,8 @@
 
 namespace abradem::wear {
 
-double finnie_function(double K, double angle) noexcept {
+double finnie_function(double force_ratio, double angle) noexcept {
+  const double K = force_ratio;
   const double s = std::sin(angle), c = std::cos(angle);
   return 6.0 * s <= K * c ? (2.0 * s * c - (6.0 / K) * s * s) / K : c * c / 6.0;
 }
