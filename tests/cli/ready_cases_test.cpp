@@ -54,5 +54,24 @@ INSTANTIATE_TEST_SUITE_P(
                   true},
         ReadyCase{"angle-of-repose", "--set run.end='0.12 s' --set output.every='20 ms'"}));
 
+/// Every grain strikes once, what the laws take leaves the mesh, and the report draws it.
+TEST(ImpactPlate, RunsToItsEnd) {
+  const ScratchFolder scratch;
+  const Outcome outcome =
+      run_program("run " ABRADEM_SOURCE_DIR "/cases/impact-plate.toml --quiet -o out", scratch.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const fs::path folder = scratch.path() / "out";
+  const json record = json::parse(read_file(folder / "run.json"));
+  const json& by_law = record["ledger"]["by_law"];
+  EXPECT_EQ(record["walls"][0]["impacts"], 18);
+  EXPECT_NEAR((by_law["finnie_mm3"].get<double>() + by_law["oka_mm3"].get<double>()) /
+                  record["ledger"]["law_volume_mm3"].get<double>(),
+              1.0, 1e-12);
+  EXPECT_LT(record["ledger"]["residual_relative"].get<double>(), 1e-9);
+  EXPECT_EQ(io::read_csv(folder / "tables" / "impacts.csv").rows(), 18u);
+  EXPECT_GT(io::read_csv(folder / "tables" / "walls.csv").rows(), 0u);
+  EXPECT_NE(read_file(folder / "report.html").find("fig-erosion-0"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace abradem::test

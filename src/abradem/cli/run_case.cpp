@@ -143,6 +143,7 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
   record.state_hash = run.state_hash();
   record.ledger = recorder.ledger();
   record.last = recorder.last();
+  io::record_walls(record, run);
   record.limits = run.limits();
   report_limits(record.limits, log, &record.warnings);
   const auto warn = [&](std::string text) {
@@ -170,7 +171,8 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
   if (record.ledger.tip_residual > 1e-9)
     warn(fmt::format("the pin's ledger does not close: residual {:.3g}", record.ledger.tip_residual));
   if (record.status == "completed" && run.law_volume() == 0.0 &&
-      std::ranges::any_of(run.setup().wear, [](const auto& wear) { return wear.wear_coefficient > 0.0; }))
+      (run.wears_by_laws() ||
+       std::ranges::any_of(run.setup().wear, [](const auto& wear) { return wear.wear_coefficient > 0.0; })))
     warn("a wear coefficient is given, but nothing was worn: does a wall slide under a particle?");
   if (record.last)
     if (std::string coarse = coarse_groove(run, *record.last); !coarse.empty()) warn(std::move(coarse));

@@ -55,6 +55,7 @@ void PlaneList::rebuild(const Spheres& spheres, const MovingPlane& plane, double
     id.push_back(spheres.id[i]);
   }
   touching.assign(sphere.size(), 0);
+  fresh.assign(sphere.size(), 0);
   spring.assign(sphere.size(), {});
   torque.assign(sphere.size(), {});
   load.assign(sphere.size(), {});
@@ -71,8 +72,8 @@ void PlaneList::rebuild(const Spheres& spheres, const MovingPlane& plane, double
 }
 
 bool PlaneList::fits(std::size_t spheres) const {
-  for (const std::size_t length :
-       {id.size(), touching.size(), spring.size(), torque.size(), load.size(), F_n.size(), slip.size()})
+  for (const std::size_t length : {id.size(), touching.size(), fresh.size(), spring.size(), torque.size(),
+                                   load.size(), F_n.size(), slip.size()})
     if (length != size()) return false;
   return std::ranges::is_sorted(sphere) &&
          (sphere.empty() || (sphere.front() >= 0 && at(sphere.back()) < spheres));
@@ -98,13 +99,14 @@ bool plane_forces(const Spheres& spheres, PlaneList& list, const MovingPlane& pl
           const PairConstants& pair = by_material[static_cast<std::size_t>(s.material)];
           const bool sticks = pair.options.adhesion > 0.0 && list.touching[k] != 0;
           if (!(overlap > 0.0) && !sticks) {
-            list.touching[k] = 0;
+            list.touching[k] = list.fresh[k] = 0;
             list.spring[k] = list.torque[k] = {};
             list.load[k] = {};
             list.F_n[k] = list.slip[k] = 0.0;
             continue;
           }
           deep[chunk] = deep[chunk] != 0 || overlap > 0.5 * kDeepest * s.radius;
+          list.fresh[k] = list.touching[k] == 0 ? 1 : 0;
           list.touching[k] = 1;
           const Vec3 arm = -s.radius * n;
           const Vec3 v = s.velocity() + cross(s.spin(), arm) - plane.pose.velocity_at(s.position() + arm);

@@ -18,10 +18,11 @@ struct MovingPlane {
 struct PlaneList {
   std::vector<std::int32_t> sphere, id;  ///< index in the order now; for life
   std::vector<std::uint8_t> touching;
-  std::vector<SpringRow> spring;  ///< in the plane's frame [m]
-  std::vector<SpringRow> torque;  ///< likewise, of contacts with options [N m]
-  std::vector<LoadRow> load;      ///< on each sphere, world frame; zero where it does not touch
-  std::vector<double> F_n, slip;  ///< normal force [N], plastic sliding of the step [m]
+  std::vector<std::uint8_t> fresh;  ///< it touches since this step
+  std::vector<SpringRow> spring;    ///< in the plane's frame [m]
+  std::vector<SpringRow> torque;    ///< likewise, of contacts with options [N m]
+  std::vector<LoadRow> load;        ///< on each sphere, world frame; zero where it does not touch
+  std::vector<double> F_n, slip;    ///< normal force [N], plastic sliding of the step [m]
 
   /// Finds the spheres within `skin` of the plane, those with id < first_id left out, and carries the springs
   /// over.
@@ -32,6 +33,7 @@ struct PlaneList {
   static void visit(Self& self, Archive& archive) {
     archive("sphere", self.sphere)("id", self.id)("touching", self.touching)("spring", self.spring);
     archive("torque", self.torque)("load", self.load)("F_n", self.F_n)("slip", self.slip);
+    archive("fresh", self.fresh);
   }
   /// @return whether what was loaded is a list of some of so many spheres
   [[nodiscard]] bool fits(std::size_t spheres) const;

@@ -61,6 +61,7 @@ class Checker {
     check_names();
     check_contact_pairs();
     check_wear_pairs();
+    check_wear_laws();
     check_ploughing();
     for (const WallSetup& wall : setup_.walls) check_wall(wall);
     for (const ParticleSetup& particle : setup_.particles) check_particle(particle);
@@ -268,6 +269,34 @@ class Checker {
           "wears");
   }
 
+  /// What laws beside Archard's ask of the rest of the case.
+  void check_wear_laws() {
+    if (!good("wear") || !good("material")) return;
+    for (const WearSetup& w : setup_.wear) {
+      const std::string path = path_of("wear", w.abrader + "/" + w.worn);
+      const auto has = [&](WearLaw law) { return std::ranges::find(w.laws, law) != w.laws.end(); };
+      if (w.laws == std::vector{WearLaw::archard}) continue;
+      const auto worn = std::ranges::find(setup_.materials, w.worn, &MaterialSetup::name);
+      if (has(WearLaw::oka) && worn != setup_.materials.end() && !worn->hardness)
+        error(path + ".law",
+              fmt::format("Oka's law needs the hardness of '{}': add hardness = \"143 HV\" to [{}]", w.worn,
+                          path_of("material", w.worn)));
+      if (has(WearLaw::impact_energy) && w.normal_energy_coefficient == 0.0 &&
+          w.shear_energy_coefficient == 0.0)
+        error(path + ".law",
+              "impact_energy needs a normal_energy_coefficient or a shear_energy_coefficient above 0");
+      if (setup_.run.method == Method::quasi_static && good("run.method") &&
+          (has(WearLaw::finnie) || has(WearLaw::oka) || has(WearLaw::impact_energy)))
+        error(path + ".law", "a balance of forces has no impacts: set run.method = \"dynamic\"");
+      if (setup_.ploughing && setup_.ploughing->removed_fraction < 1.0)
+        error(path + ".law", "[ploughing] shares out what Archard's law removes; use law = \"archard\"");
+      for (const ParticleSetup& p : setup_.particles)
+        if (p.guide != Guide::none && p.material == w.worn)
+          error(path + ".law",
+                fmt::format("the tip of '{}' wears by Archard's law alone; use law = \"archard\"", p.name));
+    }
+  }
+
   void check_ploughing() {
     if (!setup_.ploughing || setup_.ploughing->removed_fraction == 1.0 || !good("wall")) return;
     for (const WallSetup& wall : setup_.walls)
@@ -289,6 +318,15 @@ class Checker {
       error(path + ".deformation",
             fmt::format("wall '{}' is an analytic plane, which has no nodes to move; use a plate or a disc",
                         wall.name));
+    if (wall.motion.surface_velocity != Vec3{} && setup_.run.method == Method::quasi_static &&
+        good("run.method"))
+      error(path + ".motion.surface_velocity",
+            fmt::format("wall '{}' is a belt, which quasi_static has no balance for: set run.method = "
+                        "\"dynamic\"",
+                        wall.name));
+    if (wall.motion.surface_velocity != Vec3{} && wall.deformation != DeformationRule::none)
+      note(path + ".deformation",
+           "the belt's wear is booked where it happens in space, not on the belt that runs through there");
     if (wall.deformation == DeformationRule::paper && wall.deform_every != 1)
       error(path + ".deform_every",
             fmt::format(

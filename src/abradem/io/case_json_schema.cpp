@@ -41,6 +41,12 @@ Json value_schema(const Row& row) {
     }
     case Kind::choice:
       return {{"enum", row.choices}};
+    case Kind::choices:
+      return {{"anyOf", Json::array({{{"enum", row.choices}},
+                                     {{"type", "array"},
+                                      {"items", {{"enum", row.choices}}},
+                                      {"minItems", 1},
+                                      {"uniqueItems", true}}})}};
     case Kind::version:
       return {{"const", 1}};
     case Kind::integer:
@@ -93,10 +99,11 @@ Json conditional_requirements(const std::vector<const Row*>& rows) {
     Json required = {{"required", Json::array({row->key})}};
     if (!row->also.empty())
       required = {{"anyOf", Json::array({required, {{"required", Json::array({row->also})}}})}};
-    all.push_back(
-        {{"if",
-          {{"properties", {{decider, {{"enum", row->when.values}}}}}, {"required", Json::array({decider})}}},
-         {"then", required}});
+    Json decides = {{"enum", row->when.values}};
+    if (sibling(*row, row->when.key)->kind == Kind::choices)
+      decides = {{"anyOf", Json::array({decides, {{"type", "array"}, {"contains", decides}}})}};
+    all.push_back({{"if", {{"properties", {{decider, decides}}}, {"required", Json::array({decider})}}},
+                   {"then", required}});
   }
   return all;
 }

@@ -37,6 +37,8 @@ std::string value_cell(const Row& row) {
       return "name of a material";
     case Kind::choice:
       return fmt::format("`\"{}\"`", fmt::join(row.choices, "\"` \\| `\""));
+    case Kind::choices:
+      return fmt::format("one or a list of `\"{}\"`", fmt::join(row.choices, "\"` \\| `\""));
     case Kind::version:
       return "`1`";
     case Kind::quantity:

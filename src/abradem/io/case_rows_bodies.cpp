@@ -233,6 +233,16 @@ const std::array kRows{
         .when = {"kind", kOscillation},
         .example = "\"2 Hz\"",
         .doc = "Cycles of the oscillation per time."},
+    Row{.section = "wall.*.motion",
+        .key = "surface_velocity",
+        .kind = Kind::vector,
+        .need = Need::has_default,
+        .slot = ABRADEM_SLOT(wall->motion.surface_velocity),
+        .unit = "mm/s",
+        .example = "[\"1.5 m/s\", 0, 0]",
+        .doc = "Velocity at which the surface itself runs over the wall, as a conveyor belt does; turned "
+               "into the "
+               "surface where it is curved, at its full speed. The wall moves as kind says besides."},
 
     Row{.section = "particle.*",
         .key = "material",

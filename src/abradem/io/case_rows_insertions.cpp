@@ -186,8 +186,11 @@ const std::array kRows{
         .slot = ABRADEM_SLOT(insertion->volume.file),
         .when = {"shape", kFile},
         .example = "\"spheres.csv\"",
-        .doc = "CSV file with the columns x_mm, y_mm, z_mm and radius_mm, relative to the folder of the case "
-               "file."},
+        .doc = "CSV file with the columns x_mm, y_mm, z_mm and radius_mm, and where the spheres have "
+               "velocities of "
+               "their own velocity_x_m_per_s, velocity_y_m_per_s and velocity_z_m_per_s; relative to the "
+               "folder of "
+               "the case file."},
 
     Row{.section = "domain",
         .key = "low",

@@ -110,8 +110,14 @@ const Row* sibling(const Row& row, std::string_view key) {
 bool applies(const Row& row, const Target& target) {
   if (row.when.key.empty()) return true;
   const Row& decider = *sibling(row, row.when.key);
-  const auto index = static_cast<std::size_t>(std::get<ChoiceSlot>(decider.slot(target)).get());
-  return std::ranges::find(row.when.values, decider.choices[index]) != row.when.values.end();
+  const auto counts = [&](int index) {
+    return std::ranges::find(row.when.values, decider.choices[static_cast<std::size_t>(index)]) !=
+           row.when.values.end();
+  };
+  const Slot slot = decider.slot(target);
+  if (const auto* several = std::get_if<ChoicesSlot>(&slot))
+    return std::ranges::any_of(several->get(), counts);
+  return counts(std::get<ChoiceSlot>(slot).get());
 }
 
 std::string describe_when(const Row& row) {
@@ -167,6 +173,12 @@ std::optional<std::string> format_value(const Row& row, const Slot& slot) {
                         },
                         [&](const ChoiceSlot& choice) -> Text {
                           return toml_string(row.choices[static_cast<std::size_t>(choice.get())]);
+                        },
+                        [&](const ChoicesSlot& several) -> Text {
+                          std::vector<std::string> names;
+                          for (const int i : several.get())
+                            names.push_back(toml_string(row.choices[static_cast<std::size_t>(i)]));
+                          return names.size() == 1 ? names[0] : fmt::format("[{}]", fmt::join(names, ", "));
                         },
                         [&](const std::vector<simulation::VariedKey>* keys) -> Text {
                           return keys->empty() ? std::nullopt : Text(format_varied(row, *keys));

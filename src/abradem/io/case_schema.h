@@ -38,16 +38,23 @@ struct ChoiceSlot {
   std::function<void(int)> set;
 };
 
+/// A list of enumerations behind their indices in Row::choices.
+struct ChoicesSlot {
+  std::function<std::vector<int>()> get;
+  std::function<void(const std::vector<int>&)> set;
+};
+
 /// The member a row fills. monostate: nothing to store, the key has one allowed value.
 using Slot = std::variant<std::monostate, std::string*, double*, std::optional<double>*, Vec3*, int*,
                           std::uint64_t*, simulation::Duration*, simulation::TimeStep*, ChoiceSlot,
-                          std::vector<simulation::VariedKey>*, simulation::Acceleration*>;
+                          ChoicesSlot, std::vector<simulation::VariedKey>*, simulation::Acceleration*>;
 
 enum class Kind {
   text,          ///< any text
   file,          ///< path of a file, relative to the folder of the case
   material,      ///< name of a [material.…]
   choice,        ///< one of Row::choices
+  choices,       ///< one or several of Row::choices
   version,       ///< of the case format
   quantity,      ///< a number of the dimension of Row::unit
   integer,       ///< a whole number
@@ -71,7 +78,8 @@ struct Limits {
   bool low_excluded = false, high_excluded = false;
 };
 
-/// The key counts only where another key of the same table has one of these values.
+/// The key counts only where another key of the same table has one of these values (or holds one, where it is
+/// a list).
 struct When {
   std::string_view key;
   std::span<const std::string_view> values;

@@ -61,6 +61,8 @@ class Reader {
         return store(text(value));
       case Kind::choice:
         return choice(value);
+      case Kind::choices:
+        return choices(value);
       case Kind::version:
         return version(value);
       case Kind::quantity:
@@ -189,23 +191,47 @@ class Reader {
   }
 
   bool choice(const Value& value) {
+    const auto index = chosen(value);
+    if (!index) return false;
+    const Slot slot = row_.slot(target_);
+    if (const auto* stored = std::get_if<ChoiceSlot>(&slot)) stored->set(*index);
+    return true;
+  }
+
+  bool choices(const Value& value) {
+    std::vector<int> indices;
+    const bool list = value.type == Value::Type::array;
+    if (list && value.items.empty()) {
+      wrong(value, fmt::format("is an empty list; expected one or several of \"{}\"",
+                               fmt::join(row_.choices, "\", \"")));
+      return false;
+    }
+    for (const Value& item : list ? std::span<const Value>(value.items) : std::span<const Value>(&value, 1)) {
+      const auto index = chosen(item);
+      if (!index) return false;
+      if (std::ranges::find(indices, *index) != indices.end()) {
+        wrong(item, fmt::format("has {} twice", written(item)));
+        return false;
+      }
+      indices.push_back(*index);
+    }
+    std::get<ChoicesSlot>(row_.slot(target_)).set(indices);
+    return true;
+  }
+
+  std::optional<int> chosen(const Value& value) {
     const std::string list = fmt::format("\"{}\"", fmt::join(row_.choices, "\", \""));
     if (value.type != Value::Type::text) {
-      wrong(value, fmt::format("expected one of {}, got {}", list, written(value)));
-      return false;
+      return wrong(value, fmt::format("expected one of {}, got {}", list, written(value)));
     }
     const auto found = std::ranges::find(row_.choices, value.text);
     if (found == row_.choices.end()) {
       const std::string nearest = core::nearest_spelling(value.text, row_.choices);
-      wrong(value, nearest.empty() ? fmt::format("expected one of {}, got {}", list, written(value))
-                                   : fmt::format("expected one of {}, got {}; did you mean \"{}\"?", list,
-                                                 written(value), nearest));
-      return false;
+      return wrong(value, nearest.empty() ? fmt::format("expected one of {}, got {}", list, written(value))
+                                          : fmt::format("expected one of {}, got {}; did you mean \"{}\"?",
+                                                        list, written(value), nearest));
     }
-    const Slot slot = row_.slot(target_);
-    if (const auto* stored = std::get_if<ChoiceSlot>(&slot))
-      stored->set(static_cast<int>(found - row_.choices.begin()));
-    return true;
+    return static_cast<int>(found - row_.choices.begin());
   }
 
   bool version(const Value& value) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "abradem/core/error.h"
@@ -35,9 +36,18 @@ void read_insertion_files(Setup& setup) {
                  y = checked(table, i.volume.file, "y_mm", false),
                  z = checked(table, i.volume.file, "z_mm", false),
                  R = checked(table, i.volume.file, "radius_mm", true);
+      // Velocities of their own, where the file has them.
+      const bool moving = std::ranges::find(table.columns, "velocity_x_m_per_s") != table.columns.end();
+      std::vector<double> u, v, w;
+      if (moving) {
+        u = checked(table, i.volume.file, "velocity_x_m_per_s", false);
+        v = checked(table, i.volume.file, "velocity_y_m_per_s", false);
+        w = checked(table, i.volume.file, "velocity_z_m_per_s", false);
+      }
       i.placed.clear();
       for (std::size_t r = 0; r < x.size(); ++r)
-        i.placed.push_back({1e-3 * Vec3{x[r], y[r], z[r]}, 1e-3 * R[r], i.velocity});
+        i.placed.push_back(
+            {1e-3 * Vec3{x[r], y[r], z[r]}, 1e-3 * R[r], moving ? Vec3{u[r], v[r], w[r]} : i.velocity});
     }
     if (i.size.kind == SizeKind::table && i.volume.shape != VolumeShape::file) {
       const CsvTable table = read_csv(i.size.file);

@@ -46,6 +46,25 @@ Json ledger_json(const simulation::Ledger& ledger) {
   return json;
 }
 
+/// Totals by law: of every wall, and of all.
+Json laws_json(const wear::MechanismVolumes& v) {
+  return {{"archard_mm3", number(kMm3 * v[0])},
+          {"shear_work_mm3", number(kMm3 * v[1])},
+          {"finnie_mm3", number(kMm3 * v[2])},
+          {"oka_mm3", number(kMm3 * v[3])},
+          {"impact_energy_mm3", number(kMm3 * v[4])}};
+}
+
+Json walls_json(const std::vector<RunRecord::Wall>& walls) {
+  Json json = Json::array();
+  for (const RunRecord::Wall& wall : walls)
+    json.push_back(
+        wall.by_laws
+            ? Json{{"name", wall.name}, {"law_volume", laws_json(wall.law)}, {"impacts", wall.impacts}}
+            : Json{{"name", wall.name}});
+  return json;
+}
+
 Json results_json(const RunRecord& record) {
   Json results = Json::object();
   if (!record.last) return results;
@@ -127,6 +146,13 @@ std::uint64_t inputs_hash(const simulation::Setup& setup) {
   return hash.value();
 }
 
+void record_walls(RunRecord& record, const simulation::Simulation& run) {
+  record.walls.clear();
+  for (std::size_t w = 0; w < run.walls().size(); ++w)
+    record.walls.push_back(
+        {run.walls()[w].setup().name, run.wears_by_laws(), run.law_volumes(w), run.impacts_on(w).count()});
+}
+
 std::string counted(const simulation::Setup& setup) {
   for (const simulation::WallSetup& wall : setup.walls) {
     if (wall.motion.kind == simulation::MotionKind::rotation && wall.motion.rate != 0.0) return "revolution";
@@ -154,6 +180,14 @@ std::string to_json(const RunRecord& record, const simulation::Setup& setup) {
   json["state_hash"] = fmt::format("{:016x}", record.state_hash);
   json["inputs_hash"] = fmt::format("{:016x}", record.inputs_hash);
   json["ledger"] = ledger_json(record.ledger);
+  if (!record.walls.empty()) {
+    wear::MechanismVolumes all{};
+    for (const RunRecord::Wall& wall : record.walls)
+      for (std::size_t m = 0; m < all.size(); ++m) all[m] += wall.law[m];
+    if (std::ranges::any_of(record.walls, &RunRecord::Wall::by_laws))
+      json["ledger"]["by_law"] = laws_json(all);
+    json["walls"] = walls_json(record.walls);
+  }
   json["results"] = results_json(record);
   Json limits = Json::array();
   for (const auto& limit : record.limits)

@@ -26,6 +26,14 @@ struct RunRecord {
   std::uint64_t inputs_hash = 0;  ///< inputs_hash() of the setup
   simulation::Ledger ledger;
   std::optional<analysis::RevolutionRow> last;
+  /// What each wall lost, in the order of the case.
+  struct Wall {
+    std::string name;
+    bool by_laws = false;          ///< does any wall wear by another law than Archard's?
+    wear::MechanismVolumes law{};  ///< [m^3]
+    std::uint64_t impacts = 0;
+  };
+  std::vector<Wall> walls;
   std::vector<simulation::StabilityLimit> limits;
   std::vector<std::string> warnings;
   std::optional<study::AccelerationChoice> acceleration;  ///< where the case left it to be chosen
@@ -41,6 +49,9 @@ struct RunRecord {
 /// Hash of all that decides about a run's results but the program itself: every key of the resolved case and
 /// the bytes of the mesh files it names. A file that cannot be read counts as empty.
 [[nodiscard]] std::uint64_t inputs_hash(const simulation::Setup& setup);
+
+/// Puts down what each wall lost.
+void record_walls(RunRecord& record, const simulation::Simulation& run);
 
 /// The record as JSON text.
 [[nodiscard]] std::string to_json(const RunRecord& record, const simulation::Setup& setup);

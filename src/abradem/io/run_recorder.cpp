@@ -55,6 +55,7 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder, State st
       state_(std::move(state)),
       tables_(made(folder_ / "tables"), state_.tables),
       groove_(run, folder_, state_.groove_tables),
+      loads_(run, folder_, state_.wall_tables),
       force_(folder_ / "tables" / "force.csv",
              {"time_s", "revolution", "normal_force_N", "tangential_force_N", "overlap_um", "contacts",
               "normal_along_N", "normal_across_N", "normal_sum_N"},
@@ -87,6 +88,7 @@ RunRecorder::State RunRecorder::state() const {
   State now = state_;
   now.tables = tables_.positions();
   now.groove_tables = groove_.positions();
+  now.wall_tables = loads_.positions();
   now.force_table = force_.position();
   now.normality_table = normality_->position();
   if (particles_) now.particle_table = particles_->position();
@@ -96,12 +98,14 @@ RunRecorder::State RunRecorder::state() const {
 void RunRecorder::sync() {
   tables_.sync();
   groove_.sync();
+  loads_.sync();
   normality_->sync();
   force_.sync();
   if (particles_) particles_->sync();
 }
 
 void RunRecorder::observe(const Simulation& run) {
+  if (loads_.due(run.steps())) loads_.add_loads(run, revolution_of(run));
   if (run.particles().size() == 0) return;
   const simulation::ForceSample f = run.force_on(watched_particle_);
   state_.normal_force.add(f.normal);
@@ -126,6 +130,7 @@ void RunRecorder::output(bool last) {
   state_.ledger = run_.ledger();
   std::vector<analysis::Contour> contours = worn_wall_ ? cut_contours() : std::vector<analysis::Contour>{};
   groove_.add(run_, state_.ledger, revolution_of(run_), contours);
+  loads_.add(run_, revolution_of(run_));
   keep_some_profiles(contours);
   state_.last = analysis::revolution_row(revolution_of(run_), run_.test_time(),
                                          {state_.ledger.law, state_.ledger.swept, state_.ledger.paper},
@@ -137,6 +142,7 @@ void RunRecorder::output(bool last) {
   if (particles_) write_particles();
   tables_.flush();
   groove_.flush();
+  loads_.flush();
   normality_->flush();
   force_.flush();
   if (particles_) particles_->flush();
@@ -230,6 +236,7 @@ void RunRecorder::close() {
   tables_.close();
   normality_->close();
   groove_.close(run_);
+  loads_.close(run_);
   force_.close();
   if (particles_) particles_->close();
   write_elements();

@@ -12,6 +12,7 @@
 #include "abradem/io/groove_tables.h"
 #include "abradem/io/normality_table.h"
 #include "abradem/io/vtp.h"
+#include "abradem/io/wall_tables.h"
 #include "abradem/io/wear_tables.h"
 #include "abradem/simulation/simulation.h"
 
@@ -30,6 +31,7 @@ class RunRecorder {
   struct State {
     WearTablePositions tables;
     GrooveTablePositions groove_tables;
+    WallTablePositions wall_tables;
     std::uint64_t force_table = 0, normality_table = 0, particle_table = 0;  ///< bytes
     analysis::RunningStatistics normal_force;
     std::vector<PvdEntry> frames;
@@ -40,7 +42,8 @@ class RunRecorder {
 
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
-      archive("tables", self.tables)("groove_tables", self.groove_tables)("force_table", self.force_table);
+      archive("tables", self.tables)("groove_tables", self.groove_tables);
+      archive("wall_tables", self.wall_tables)("force_table", self.force_table);
       archive("normality_table", self.normality_table)("particle_table", self.particle_table);
       archive("normal_force", self.normal_force);
       archive("frames", self.frames)("frame", self.frame)("outputs_until", self.outputs_until);
@@ -85,6 +88,7 @@ class RunRecorder {
   State state_;  // its table positions: where the record was taken up
   WearTables tables_;
   GrooveTables groove_;
+  WallTables loads_;
   std::optional<NormalityTable> normality_;
   CsvWriter force_;
   std::optional<CsvWriter> particles_;                  // where particles come in numbers

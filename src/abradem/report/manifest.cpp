@@ -102,6 +102,9 @@ void read_optional(const Place& place, Manifest& out) {
   if (json.contains("warnings") && json["warnings"].is_array()) {
     for (const ordered_json& warning : json["warnings"]) out.warnings.push_back(as_text(warning));
   }
+  if (json.contains("walls") && json["walls"].is_array())
+    for (const ordered_json& wall : json["walls"])
+      out.walls.push_back(Place{wall, place.file, "walls."}.text("name"));
   if (json.contains("setup") && json["setup"].is_object()) {
     for (const auto& [name, value] : json["setup"].items()) out.setup.emplace_back(name, as_text(value));
   }

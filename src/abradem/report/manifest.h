@@ -55,6 +55,7 @@ struct Manifest {
   std::vector<LimitCheck> limits;
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, std::string>> setup;  ///< name and value, as text
+  std::vector<std::string> walls;  ///< their names, in the order of the case; empty in old records
   Measurement measurement;
 };
 

@@ -17,6 +17,7 @@
 #include "abradem/report/sections.h"
 #include "abradem/report/statistics_section.h"
 #include "abradem/report/text.h"
+#include "abradem/report/walls_section.h"
 
 namespace abradem::report {
 namespace {
@@ -132,6 +133,7 @@ std::vector<PageSection> numbered_sections(const RunFolder& run) {
   std::vector<PageSection> sections;
   if (std::optional<PageSection> particles = particles_section(run))
     sections.push_back(std::move(*particles));
+  if (std::optional<PageSection> walls = walls_section(run)) sections.push_back(std::move(*walls));
   if (!run.has_groove()) return sections;
   if (std::optional<PageSection> pin = pin_and_ridges_section(run)) sections.push_back(std::move(*pin));
   GrooveSeries series = groove_series(run.contours);

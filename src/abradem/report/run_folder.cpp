@@ -39,6 +39,17 @@ constexpr std::array kParticles = {"time_s"sv,           "particles"sv,      "ma
                                    "contacts"sv,         "wall_contacts"sv,  "kinetic_energy_J"sv,
                                    "elastic_energy_J"sv, "fastest_m_per_s"sv};
 
+constexpr std::array kWalls = {"time_s"sv,      "wall"sv,        "force_x_N"sv,
+                               "force_y_N"sv,   "force_z_N"sv,   "torque_x_Nm"sv,
+                               "torque_y_Nm"sv, "torque_z_Nm"sv, "power_W"sv};
+constexpr std::array kLaws = {"time_s"sv,     "wall"sv,    "archard_mm3"sv,       "shear_work_mm3"sv,
+                              "finnie_mm3"sv, "oka_mm3"sv, "impact_energy_mm3"sv, "impacts"sv};
+constexpr std::array kImpacts = {
+    "wall"sv,       "impacts"sv, "mass_kg"sv, "angle_mean_deg"sv, "speed_mean_m_per_s"sv,
+    "finnie_mm3"sv, "oka_mm3"sv};
+constexpr std::array kErosion = {"wall"sv,          "abrader"sv,           "angle_deg"sv,
+                                 "speed_m_per_s"sv, "finnie_mm3_per_kg"sv, "oka_mm3_per_kg"sv};
+
 /// A table that only some runs write.
 std::optional<Table> read_if_there(const std::filesystem::path& file,
                                    std::span<const std::string_view> required) {
@@ -124,6 +135,10 @@ RunFolder read_run_folder(const std::filesystem::path& folder) {
   run.tip = read_if_there(tables / "tip.csv", kTip);
   run.tip_profile = read_if_there(tables / "tip_profile.csv", kTipProfile);
   run.particles = read_if_there(tables / "particles.csv", kParticles);
+  run.walls = read_if_there(tables / "walls.csv", kWalls);
+  run.laws = read_if_there(tables / "wear_by_law.csv", kLaws);
+  run.impacts = read_if_there(tables / "impacts.csv", kImpacts);
+  run.erosion = read_if_there(tables / "erosion.csv", kErosion);
   read_surface(run);
   return run;
 }

@@ -19,6 +19,8 @@ struct RunFolder {
   Table revolutions, contours, profiles, force;
   std::optional<Table> ridges, tip, tip_profile;  ///< of runs that plough, or wear their pins
   std::optional<Table> particles;                 ///< of runs with particles in numbers
+  std::optional<Table> walls;                     ///< loads on the walls; of all but old runs
+  std::optional<Table> laws, impacts, erosion;    ///< of runs that wear by other laws than Archard's
   std::optional<WornSurface> surface;
   std::string surface_note;  ///< why there is no surface, when there is none
 

@@ -16,7 +16,9 @@ std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 constexpr std::size_t kWorthSharing = 256;  // spheres near meshes
 
 contact::MovingPlane plane_of(const Wall& wall, const geometry::Pose& pose) {
-  return {wall.setup().mesh.position, wall.setup().mesh.normal, pose};
+  contact::MovingPlane plane{wall.setup().mesh.position, wall.setup().mesh.normal, pose};
+  if (wall.is_belt()) plane.pose.velocity += pose.turn(wall.belt_velocity(plane.normal));
+  return plane;
 }
 
 SphereState state_of(const contact::SphereRow& s) noexcept {

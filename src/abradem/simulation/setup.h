@@ -51,11 +51,32 @@ struct Acceleration {
   bool operator==(const Acceleration&) const = default;
 };
 
+/// In the order of wear::Mechanism.
+enum class WearLaw { archard, shear_work, finnie, oka, impact_energy };
+
+/// Oka's erosion; what is not given is that of SiO2 grains on a metal of the worn material's hardness.
+struct OkaSetup {
+  std::optional<double> reference_erosion;  ///< at 90 degrees and the reference speed and diameter [m^3/kg]
+  double reference_speed = 104.0;           ///< [m/s]
+  double reference_diameter = 326e-6;       ///< [m]
+  std::optional<double> speed_exponent;     ///< k2 [-]
+  double diameter_exponent = 0.19;          ///< k3 [-]
+  std::optional<double> n1, n2;             ///< exponents of the angle function [-]
+  bool operator==(const OkaSetup&) const = default;
+};
+
 struct WearSetup {
   std::string abrader, worn;      ///< the first wears the second
   double wear_coefficient = 0.0;  ///< alpha_s = k / H_s [1/Pa], Archard
   Acceleration acceleration = {};
   double tolerance = 0.01;  ///< acceleration automatic: of the groove's profile, relative L2 [-]
+  std::vector<WearLaw> laws{WearLaw::archard};  ///< their volumes add up
+  double shear_work_coefficient = 0.0;          ///< C: volume per work of friction [m^3/J]
+  double finnie_coefficient = 0.0;              ///< k = c / (psi p) [1/Pa]
+  double finnie_force_ratio = 2.0;              ///< K [-]
+  OkaSetup oka = {};
+  double normal_energy_coefficient = 0.0;  ///< k_n: volume per energy lost along the normal [m^3/J]
+  double shear_energy_coefficient = 0.0;   ///< k_t: volume per energy lost to friction [m^3/J]
   bool operator==(const WearSetup&) const = default;
 };
 
@@ -91,6 +112,7 @@ struct MotionSetup {
   Vec3 velocity;           ///< translation [m/s]
   Vec3 amplitude;          ///< oscillation [m]
   double frequency = 0.0;  ///< oscillation [Hz]
+  Vec3 surface_velocity;   ///< of a belt over the wall, which itself moves as `kind` says; wall's frame [m/s]
   bool operator==(const MotionSetup&) const = default;
 };
 

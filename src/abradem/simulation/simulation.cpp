@@ -64,6 +64,7 @@ Simulation::Simulation(Setup setup, const MeshSource& source) : setup_(std::move
   }
   find_pair_properties();
   check_ploughing();
+  choose_accounts();
   add_particles();
   add_tips();
   sphere_walls_.resize(particles_.size() * walls_.size());
@@ -106,6 +107,7 @@ void Simulation::find_pair_properties() {
                         "\"resolved\" (or a plane) can follow",
                         wall.setup().name));
   wear_.assign(n * n, 0.0);
+  laws_.assign(n * n, {});
   for (const WearSetup& w : setup_.wear) {
     const auto a = static_cast<std::size_t>(index_of(setup_.materials, w.abrader, "material"));
     const auto b = static_cast<std::size_t>(index_of(setup_.materials, w.worn, "material"));
@@ -119,7 +121,71 @@ void Simulation::find_pair_properties() {
     if (&w != &setup_.wear.front() && w.acceleration.factor != acceleration_)
       throw InputError("the accelerations of the wear pairs differ; they shorten one and the same run");
     acceleration_ = w.acceleration.factor;
-    wear_[a * n + b] = w.wear_coefficient * acceleration_;
+    laws_[a * n + b] = laws_of(w);
+    wear_[a * n + b] = laws_[a * n + b].archard;
+  }
+}
+
+/// The laws of a pair with the coefficients of the modelled revolutions.
+wear::Laws Simulation::laws_of(const WearSetup& w) const {
+  const auto has = [&](WearLaw law) { return std::ranges::find(w.laws, law) != w.laws.end(); };
+  wear::Laws laws;
+  if (has(WearLaw::archard)) laws.archard = w.wear_coefficient * acceleration_;
+  if (has(WearLaw::shear_work)) laws.shear_work = w.shear_work_coefficient * acceleration_;
+  if (has(WearLaw::finnie))
+    laws.finnie = wear::FinnieLaw{w.finnie_coefficient * acceleration_, w.finnie_force_ratio};
+  if (has(WearLaw::impact_energy)) {
+    laws.normal_energy = w.normal_energy_coefficient * acceleration_;
+    laws.shear_energy = w.shear_energy_coefficient * acceleration_;
+  }
+  if (has(WearLaw::oka)) {
+    const auto worn = std::ranges::find(setup_.materials, w.worn, &MaterialSetup::name);
+    if (!worn->hardness)
+      throw InputError(
+          fmt::format("wear \"{}/{}\": Oka's law needs the hardness of '{}'", w.abrader, w.worn, w.worn));
+    wear::OkaLaw oka = wear::OkaLaw::of_hardness(*worn->hardness);
+    oka.reference_erosion = w.oka.reference_erosion.value_or(oka.reference_erosion) * acceleration_;
+    oka.reference_speed = w.oka.reference_speed;
+    oka.reference_diameter = w.oka.reference_diameter;
+    oka.speed_exponent = w.oka.speed_exponent.value_or(oka.speed_exponent);
+    oka.diameter_exponent = w.oka.diameter_exponent;
+    oka.n1 = w.oka.n1.value_or(oka.n1);
+    oka.n2 = w.oka.n2.value_or(oka.n2);
+    laws.oka = oka;
+  }
+  return laws;
+}
+
+/// Which walls wear by more than Archard's law, and what such laws cannot be combined with.
+void Simulation::choose_accounts() {
+  by_laws_.assign(walls_.size(), 0);
+  account_.resize(walls_.size());
+  for (const WearSetup& w : setup_.wear) {
+    const wear::Laws& laws = wear_laws(index_of(setup_.materials, w.abrader, "material"),
+                                       index_of(setup_.materials, w.worn, "material"));
+    if (laws.only_archard()) continue;
+    if (ploughs())
+      throw InputError(fmt::format("[ploughing] shares out what Archard's law removes; \"{}/{}\" has others",
+                                   w.abrader, w.worn));
+    for (const ParticleSetup& p : setup_.particles)
+      if (p.guide != Guide::none && p.material == w.worn)
+        throw InputError(fmt::format("particle '{}' wears by Archard's law alone; \"{}/{}\" has others",
+                                     p.name, w.abrader, w.worn));
+    if (laws.normal_energy > 0.0 && pair(index_of(setup_.materials, w.abrader, "material"),
+                                         index_of(setup_.materials, w.worn, "material"))
+                                        .options.any())
+      throw InputError(
+          fmt::format("wear \"{}/{}\": normal_energy_coefficient knows the damper of hertz_mindlin "
+                      "alone; leave it out, or the options of the contact",
+                      w.abrader, w.worn));
+    if (setup_.run.method == Method::quasi_static && (laws.strikes() || laws.normal_energy > 0.0))
+      throw InputError(fmt::format("wear \"{}/{}\": a balance of forces has no impacts; use method dynamic",
+                                   w.abrader, w.worn));
+    for (std::size_t k = 0; k < walls_.size(); ++k) {
+      if (walls_[k].setup().material != w.worn) continue;
+      by_laws_[k] = 1;
+      if (laws.strikes()) walls_[k].watch_impacts();
+    }
   }
 }
 
@@ -280,9 +346,12 @@ void Simulation::choose_time_step() {
   if (setup_.run.method == Method::quasi_static) {
     if (!setup_.insertions.empty())
       throw InputError("method quasi_static balances guided particles; with an [insertion] use dynamic");
-    for (const WallSetup& wall : setup_.walls)
+    for (const WallSetup& wall : setup_.walls) {
+      if (wall.motion.surface_velocity != Vec3{})
+        throw InputError(fmt::format("wall '{}' is a belt; use method dynamic", wall.name));
       if (wall.until)
         throw InputError(fmt::format("wall '{}' goes away on the way; use method dynamic", wall.name));
+    }
     double speed = 0.0;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       if (particles_.guide[p] == Vec3{} || norm(particles_.load[p]) == 0.0)
@@ -517,6 +586,39 @@ std::uint64_t Simulation::state_hash() const {
     if (tip) hash.add(std::span<const double>(tip->shape().recession));
   if (bulk_) bulk_->add_to(hash);
   return hash.value();
+}
+
+Simulation::WallLoad Simulation::load_on_wall(std::size_t w) const noexcept {
+  const geometry::Pose& pose = poses_[w];
+  const Vec3 middle = pose.pivot + pose.shift;
+  WallLoad sum;
+  const auto add = [&](const Vec3& centre, const Vec3& force, const Vec3& torque) {
+    sum.force -= force;
+    sum.torque -= cross(centre - middle, force) + torque;
+  };
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    const SphereWall& contact = sphere_walls_[p * walls_.size() + w];
+    if (contact.touches().empty()) continue;
+    const ForceAndTorque f = contact.load(pose, particles_.radius[p]);
+    add(pose.to_world(contact.centre()), f.force, f.torque);
+  }
+  if (bulk_) {
+    const auto row = [&](std::int32_t i) -> const contact::SphereRow& {
+      return bulk_->spheres().row[static_cast<std::size_t>(i)];
+    };
+    const contact::PlaneList& plane = bulk_->walls().planes()[w];
+    for (std::size_t k = 0; k < plane.size(); ++k) {
+      if (plane.touching[k] == 0) continue;
+      const contact::SphereRow& s = row(plane.sphere[k]);
+      add(s.position() - s.velocity() * dt_, plane.load[k].force(), plane.load[k].torque());  // one step back
+    }
+    for (const BulkWalls::NearMesh& m : bulk_->walls().meshes())
+      if (static_cast<std::size_t>(m.wall) == w && !m.contact->touches().empty())
+        add(pose.to_world(m.contact->centre()), m.load.force(), m.load.torque());
+  }
+  sum.power = -dot(sum.force, pose.velocity) - dot(sum.torque, pose.spin);
+  if (walls_[w].is_belt()) sum.power -= dot(sum.force, pose.turn(walls_[w].setup().motion.surface_velocity));
+  return sum;
 }
 
 double Simulation::kinetic_energy() const noexcept {

@@ -127,6 +127,20 @@ class Simulation {
   [[nodiscard]] bool ploughs() const noexcept { return removed_fraction() < 1.0; }
   /// Volume worn so far by the law, all walls [m^3]; cheap.
   [[nodiscard]] double law_volume() const noexcept;
+  /// Does any wall wear by another law than Archard's?
+  [[nodiscard]] bool wears_by_laws() const noexcept;
+  /// Does this wall?
+  [[nodiscard]] bool wears_by_laws(std::size_t wall) const noexcept { return by_laws_[wall] != 0; }
+  /// Volume that a wall has lost so far to each mechanism [m^3].
+  [[nodiscard]] wear::MechanismVolumes law_volumes(std::size_t wall) const noexcept;
+  /// The impacts on a wall so far, where it wears by impacts.
+  [[nodiscard]] const wear::ImpactSpectrum& impacts_on(std::size_t wall) const noexcept {
+    return account_[wall].impacts;
+  }
+  /// How material `abrader` wears `worn`, accelerated as the run is.
+  [[nodiscard]] const wear::Laws& wear_laws(int abrader, int worn) const {
+    return laws_[static_cast<std::size_t>(abrader) * materials_.size() + static_cast<std::size_t>(worn)];
+  }
   /// Forces of the last step on particle p.
   [[nodiscard]] ForceSample force_on(std::size_t p) const noexcept;
   /// The normal force of the last step on particle p by the elements that carry it, along and across its
@@ -154,6 +168,14 @@ class Simulation {
   [[nodiscard]] Vec3 bulk_force_on_wall(std::size_t wall) const noexcept {
     return bulk_ ? bulk_->walls().force_on(wall) : Vec3{};
   }
+  /// What the particles did to a wall in the last step: force, torque about the point that the wall's motion
+  /// turns about (the origin where nothing moves), and the power that the wall spent on them (of a belt:
+  /// where it is flat) [W].
+  struct WallLoad {
+    Vec3 force, torque;
+    double power = 0.0;
+  };
+  [[nodiscard]] WallLoad load_on_wall(std::size_t wall) const noexcept;
   /// Kinetic energy of all particles [J].
   [[nodiscard]] double kinetic_energy() const noexcept;
 
@@ -183,11 +205,14 @@ class Simulation {
   void choose_time_step();
   [[nodiscard]] double choose_increment() const;
   void find_pair_properties();
+  [[nodiscard]] wear::Laws laws_of(const WearSetup& wear) const;
+  void choose_accounts();
   [[nodiscard]] const contact::PairProperties& pair(int a, int b) const {
     return pairs_[static_cast<std::size_t>(a) * setup_.materials.size() + static_cast<std::size_t>(b)];
   }
   void refuse_missing_pairs(const std::vector<char>& given) const;
   [[nodiscard]] double plane_wear(std::size_t wall) const;
+  double plane_wear_by_laws(std::size_t wall);
   [[nodiscard]] double wear_coefficient(int abrader, int worn) const;
 
   void move_walls();
@@ -216,7 +241,8 @@ class Simulation {
   Setup setup_;
   std::vector<material::Material> materials_;
   std::vector<contact::PairProperties> pairs_;
-  std::vector<double> wear_;  // alpha_s of (abrader, worn)
+  std::vector<double> wear_;      // alpha_s of (abrader, worn)
+  std::vector<wear::Laws> laws_;  // of (abrader, worn)
   Particles particles_;
   std::vector<Wall> walls_;
   std::vector<geometry::Pose> poses_;
@@ -224,6 +250,8 @@ class Simulation {
   std::optional<Bulk> bulk_;                           // where spheres can meet spheres, or come in numbers
   std::vector<double> law_, paper_;                    // per wall [m^3]
   std::vector<double> displaced_;                      // per wall, ploughed aside [m^3]
+  std::vector<char> by_laws_;                          // per wall: it wears by others than Archard's
+  std::vector<WearAccount> account_;                   // per wall, where it does
   std::vector<std::optional<wear::WearingTip>> tips_;  // per particle
   std::vector<Vec3> tip_along_;                        // per particle: axis s of its tip's map
   std::vector<double> tip_law_;                        // per particle [m^3]

@@ -119,7 +119,7 @@ void SphereWall::touch_plane(const Wall& wall, const Vec3& c, double R, const co
 
 /// The memory that continues in this contact: the same element, else the unclaimed contact nearest in place
 /// (per_triangle), or the one that faced most alike, within 25 degrees (patch, resolved). None: a new one.
-contact::TangentialHistory& SphereWall::recall(const Touch& touch, ContactRule rule) {
+SphereWall::Memory& SphereWall::recall(const Touch& touch, ContactRule rule) {
   Memory* best = nullptr;
   double best_score = rule == ContactRule::per_triangle ? -std::numeric_limits<double>::infinity() : 0.9;
   for (Memory& m : memory_) {
@@ -129,10 +129,46 @@ contact::TangentialHistory& SphereWall::recall(const Touch& touch, ContactRule r
                                                            : -norm2(m.point - touch.point);
     if (score > best_score) best = &m, best_score = score;
   }
-  kept_.push_back({touch.n, touch.point, touch.key,
-                   best != nullptr ? best->history : contact::TangentialHistory{}, false});
-  if (best != nullptr) best->used = true;
-  return kept_.back().history;
+  kept_.push_back({.n = touch.n, .point = touch.point, .key = touch.key, .history = {}});
+  Memory& memory = kept_.back();
+  memory.fresh = best == nullptr;
+  if (best == nullptr) return memory;
+  best->used = true;
+  memory.history = best->history;
+  memory.speed = best->speed;
+  memory.angle = best->angle;
+  memory.approaching = best->approaching;
+  return memory;
+}
+
+/// A contact that begins notes how the surfaces meet; it strikes in the step in which they no longer come
+/// closer, where the footprint is largest. @param v of the sphere's surface against the wall's
+void SphereWall::watch_impact(Memory& memory, const Vec3& n, const Vec3& v) noexcept {
+  const double v_n = dot(v, n);
+  if (memory.fresh && v_n < 0.0) {
+    memory.speed = norm(v);
+    memory.angle = std::asin(std::min(1.0, -v_n / memory.speed));
+    memory.approaching = true;
+  }
+  memory.striking = memory.approaching && v_n >= 0.0;
+  if (memory.striking) memory.approaching = false;
+}
+
+/// The damper's power is (D v_n)^2 / D, and D v_n is what it takes off the elastic force.
+wear::WorkSample SphereWall::work_of(const Touch& touch, double slip, double mass,
+                                     const contact::PairProperties& pair, double dt) noexcept {
+  const double damper = contact::damping_coefficient(pair, contact::normal_stiffness(pair, touch.a), mass);
+  const double by_damper = touch.elastic_force - touch.force.F_n;
+  return {.contact = {std::max(touch.force.F_n, 0.0), slip},
+          .shear_work = norm(touch.force.F_t) * slip,
+          .normal_loss = damper > 0.0 ? by_damper * by_damper / damper * dt : 0.0};
+}
+
+void SphereWall::add_strike(const wear::Laws& laws, const Memory& memory, double R, double mass,
+                            wear::MechanismVolumes& volumes, wear::ImpactSpectrum& impacts) noexcept {
+  const wear::Impact impact{memory.speed, memory.angle, mass, 2.0 * R};
+  wear::add_impact(laws, impact, volumes);
+  impacts.add(impact, volumes);
 }
 
 /// Does a contact that faces this way last from the step before?
@@ -179,35 +215,54 @@ bool SphereWall::compute_with_options(Touch& touch, const Vec3& v, const SphereS
 ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose, const SphereState& sphere,
                                    const contact::PairProperties& pair, double dt) {
   ForceAndTorque total;
+  rolling_ = {};
   kept_.clear();
   kept_.reserve(touches_.size());  // recall hands out references
   for (Touch& touch : touches_) {
     const Vec3 n = pose.turn(touch.n);
     const Vec3 arm = -sphere.radius * n;
     const Vec3 v = sphere.velocity + cross(sphere.spin, arm) - pose.velocity_at(sphere.position + arm);
-    const contact::ContactState state{touch.n, touch.elastic_force, touch.a, sphere.mass, pose.turn_back(v)};
-    contact::TangentialHistory& history = recall(touch, wall.setup().contact);
+    contact::ContactState state{touch.n, touch.elastic_force, touch.a, sphere.mass, pose.turn_back(v)};
+    if (wall.is_belt()) state.v -= wall.belt_velocity(touch.n);
+    Memory& memory = recall(touch, wall.setup().contact);
+    touch.memory = static_cast<int>(kept_.size()) - 1;
+    if (wall.watches_impacts()) watch_impact(memory, touch.n, state.v);
     if (pair.options.any()) {
       Vec3 torque;
       const Vec3 spin = pose.turn_back(sphere.spin - pose.spin);
-      if (!compute_with_options(touch, state.v, sphere, spin, pair, dt, history, torque)) {
+      if (!compute_with_options(touch, state.v, sphere, spin, pair, dt, memory.history, torque)) {
         kept_.pop_back();
+        touch.memory = -1;
         continue;
       }
       const Vec3 tangential = pose.turn(touch.force.F_t);
       total.force += touch.force.F_n * n + tangential;
       total.torque += cross(arm, tangential) + pose.turn(torque);
+      rolling_ += pose.turn(torque);
       continue;
     }
-    touch.force = contact::hertz_mindlin(pair, state, dt, history);
+    touch.force = contact::hertz_mindlin(pair, state, dt, memory.history);
     const Vec3 tangential = pose.turn(touch.force.F_t);
     total.force += touch.force.F_n * n + tangential;
     const double I = 0.4 * sphere.mass * sphere.radius * sphere.radius;
-    total.torque += cross(arm, tangential) + contact::rolling_torque(pair, sphere.radius, touch.force.F_n,
-                                                                     sphere.spin - pose.spin, I, dt);
+    const Vec3 rolling =
+        contact::rolling_torque(pair, sphere.radius, touch.force.F_n, sphere.spin - pose.spin, I, dt);
+    total.torque += cross(arm, tangential) + rolling;
+    rolling_ += rolling;
   }
   memory_.swap(kept_);
   return total;
+}
+
+ForceAndTorque SphereWall::load(const geometry::Pose& pose, double R) const noexcept {
+  ForceAndTorque sum;
+  for (const Touch& touch : touches_) {
+    const Vec3 n = pose.turn(touch.n), tangential = pose.turn(touch.force.F_t);
+    sum.force += touch.force.F_n * n + tangential;
+    sum.torque += cross(-R * n, tangential);
+  }
+  if (!touches_.empty()) sum.torque += rolling_;
+  return sum;
 }
 
 /// Where the Hertz footprint lies wholly inside one triangle, its pressure is symmetric about the nearest

@@ -10,6 +10,7 @@
 #include "abradem/simulation/wall.h"
 #include "abradem/wear/archard.h"
 #include "abradem/wear/footprint.h"
+#include "abradem/wear/laws.h"
 #include "abradem/wear/ridges.h"
 #include "abradem/wear/wearing_tip.h"
 
@@ -19,6 +20,17 @@ namespace abradem::simulation {
 struct SphereState {
   Vec3 position, velocity, spin;
   double radius = 0.0, mass = 0.0;
+};
+
+/// What a wall has lost to each mechanism, and to which impacts.
+struct WearAccount {
+  wear::MechanismVolumes law{};  ///< [m^3]
+  wear::ImpactSpectrum impacts;
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("law", self.law)("impacts", self.impacts);
+  }
 };
 
 struct ForceAndTorque {
@@ -49,6 +61,7 @@ class SphereWall {
     int part = 0;                ///< patch or flat set that it stands for
     int nearest = -1;            ///< point contacts: candidate triangle that holds the nearest point
     contact::ContactForce force;
+    int memory = -1;  ///< place of its memory in this step; -1: none
 
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
@@ -93,6 +106,27 @@ class SphereWall {
     return volume;
   }
 
+  /// The same by several laws at once. @param account is added to
+  /// @return the volume of all mechanisms [m^3]
+  template <typename SlipOf>
+  double deposit_by_laws(Wall& wall, const wear::Laws& laws, const SphereState& sphere,
+                         const contact::PairProperties& pair, double dt, WearAccount& account,
+                         SlipOf&& slip_of) {
+    const double R = sphere.radius, mass = sphere.mass;
+    double volume = 0.0;
+    for (const Touch& touch : touches_) {
+      wear::MechanismVolumes volumes{};
+      wear::add_work(laws, work_of(touch, slip_of(touch), mass, pair, dt), volumes);
+      if (touch.memory >= 0 && memory_[static_cast<std::size_t>(touch.memory)].striking)
+        add_strike(laws, memory_[static_cast<std::size_t>(touch.memory)], R, mass, volumes, account.impacts);
+      const double dV = wear::total(volumes);
+      if (dV > 0.0) deposit_one(wall, touch, dV, R, pair);
+      volume += dV;
+      for (std::size_t m = 0; m < volumes.size(); ++m) account.law[m] += volumes[m];
+    }
+    return volume;
+  }
+
   /// The sphere's worn end as this wall sees it now, for the next find.
   void set_tip(const contact::Tip& tip) noexcept { tip_ = tip; }
   /// Books the sphere's own wear of one step and, when enough has come together to matter or an output is
@@ -126,6 +160,10 @@ class SphereWall {
   /// Displaced and not yet piled up [m^3].
   [[nodiscard]] double unpiled_volume() const noexcept { return unpiled_; }
 
+  /// Force on the sphere and torque about its centre, of the contacts as they are [world frame].
+  [[nodiscard]] ForceAndTorque load(const geometry::Pose& pose, double R) const noexcept;
+  /// The sphere's centre at the last search, in the wall's frame.
+  [[nodiscard]] const Vec3& centre() const noexcept { return centre_; }
   [[nodiscard]] const std::vector<Touch>& touches() const noexcept { return touches_; }
   [[nodiscard]] std::vector<Touch>& touches() noexcept { return touches_; }
   [[nodiscard]] const contact::MeshCandidates& candidates() const noexcept { return candidates_; }
@@ -172,10 +210,16 @@ class SphereWall {
     int key = -1;
     contact::TangentialHistory history;
     bool used = false;
+    // Where the wall wears by impacts: how this one began, until the sphere no longer comes closer.
+    double speed = 0.0, angle = 0.0;  // [m/s], from the surface [rad]
+    bool approaching = false;
+    bool striking = false;  // it has just ceased to
+    bool fresh = false;     // it begins in this step
 
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
       archive("n", self.n)("point", self.point)("key", self.key)("history", self.history);
+      archive("speed", self.speed)("angle", self.angle)("approaching", self.approaching);
     }
   };
   struct Pressing {
@@ -203,7 +247,12 @@ class SphereWall {
   bool deposit_inside(Wall& wall, const Touch& touch, double dV, double R,
                       const contact::PairProperties& pair);
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
-  contact::TangentialHistory& recall(const Touch& touch, ContactRule rule);
+  Memory& recall(const Touch& touch, ContactRule rule);
+  static void watch_impact(Memory& memory, const Vec3& n, const Vec3& v) noexcept;
+  [[nodiscard]] static wear::WorkSample work_of(const Touch& touch, double slip, double mass,
+                                                const contact::PairProperties& pair, double dt) noexcept;
+  static void add_strike(const wear::Laws& laws, const Memory& memory, double R, double mass,
+                         wear::MechanismVolumes& volumes, wear::ImpactSpectrum& impacts) noexcept;
   [[nodiscard]] bool sticking(const Vec3& n) const noexcept;
   bool compute_with_options(Touch& touch, const Vec3& v, const SphereState& sphere, const Vec3& spin,
                             const contact::PairProperties& pair, double dt,
@@ -229,6 +278,7 @@ class SphereWall {
   double centroid_volume_ = 0.0;
   contact::Tip tip_;
   Vec3 centre_;                                 // of the last search
+  Vec3 rolling_;                                // resistance to rolling in the last step, world frame [N m]
   double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
   double tip_area_ = 0.0;                       // of the tip under pressure, of late [m^2]
   wear::RidgeBuilder ridges_;

@@ -16,6 +16,7 @@ void Simulation::visit(Self& self, Archive& archive) {
   archive.fixed("position", self.particles_.position).fixed("velocity", self.particles_.velocity);
   archive.fixed("spin", self.particles_.spin);
   archive.fixed("law", self.law_).fixed("paper", self.paper_).fixed("displaced", self.displaced_);
+  archive.fixed("account", self.account_);
   for (auto& wall : self.walls_)
     if (!wall.is_plane()) archive("surface", wall.surface());
   for (auto& tip : self.tips_)

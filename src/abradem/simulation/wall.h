@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -35,8 +36,21 @@ class Wall {
 
   /// Pose at a time. Closed form of the time, so that it never drifts.
   [[nodiscard]] geometry::Pose pose_at(double time) const noexcept;
+  /// Does its surface run over it, as a belt does?
+  [[nodiscard]] bool is_belt() const noexcept { return setup_.motion.surface_velocity != Vec3{}; }
+  /// Velocity of the belt where the wall's normal is n, in the wall's frame: along the surface, at its full
+  /// speed.
+  [[nodiscard]] Vec3 belt_velocity(const Vec3& n) const noexcept {
+    const Vec3& s = setup_.motion.surface_velocity;
+    const Vec3 along = s - dot(s, n) * n;
+    const double speed2 = norm2(along);
+    return speed2 > 0.0 ? along * std::sqrt(norm2(s) / speed2) : Vec3{};
+  }
   /// Is it still there at this time [s]? (See WallSetup::until.)
   [[nodiscard]] bool present(double time) const noexcept { return !setup_.until || time < *setup_.until; }
+  /// Must contacts remember how they began, for laws that wear by impacts?
+  void watch_impacts() noexcept { watches_impacts_ = true; }
+  [[nodiscard]] bool watches_impacts() const noexcept { return watches_impacts_; }
   /// Time of one turn or one cycle [s]; none for a wall that does neither.
   [[nodiscard]] std::optional<double> period() const noexcept;
 
@@ -45,6 +59,7 @@ class Wall {
   int material_;
   std::optional<wear::WearingSurface> surface_;
   geometry::TriangleGrid grid_;
+  bool watches_impacts_ = false;
 };
 
 }  // namespace abradem::simulation

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kDeepest = 0.1;  // of the radius: Hertz's small contact is long gone
 
-/// Fastest that a point of the wall can be within `extent` of the scene [m/s].
-double fastest(const MotionSetup& motion, double extent) {
+/// Fastest that a point of the wall can be within `extent` of the scene [m/s], its belt left out.
+double fastest_point(const MotionSetup& motion, double extent) {
   switch (motion.kind) {
     case MotionKind::none:
       break;
@@ -30,6 +30,10 @@ double fastest(const MotionSetup& motion, double extent) {
       return 2.0 * std::numbers::pi * motion.frequency * norm(motion.amplitude);
   }
   return 0.0;
+}
+
+double fastest(const MotionSetup& motion, double extent) {
+  return fastest_point(motion, extent) + norm(motion.surface_velocity);
 }
 
 /// What rounding of its nodes' coordinates may change of the volume that a surface swept [m^3]: a node is

@@ -21,7 +21,13 @@ void Simulation::accumulate_wear() {
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       Wall& wall = walls_[w];
       const double alpha_s = groove_coefficient(particles_.material[p], wall.material());
-      if (alpha_s != 0.0) {
+      if (by_laws_[w] != 0) {
+        law_[w] += sphere_walls_[p * walls_.size() + w].deposit_by_laws(
+            wall, wear_laws(particles_.material[p], wall.material()),
+            {{}, {}, {}, particles_.radius[p], particles_.mass[p]},
+            pair(particles_.material[p], wall.material()), dt_, account_[w],
+            [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); });
+      } else if (alpha_s != 0.0) {
         const double volume = sphere_walls_[p * walls_.size() + w].deposit(
             wall, alpha_s, particles_.radius[p], pair(particles_.material[p], wall.material()),
             [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); });
@@ -37,11 +43,18 @@ void Simulation::accumulate_wear() {
     }
   if (!bulk_) return;
   for (std::size_t w = 0; w < walls_.size(); ++w)
-    if (walls_[w].is_plane()) law_[w] += plane_wear(w);
+    if (walls_[w].is_plane()) law_[w] += by_laws_[w] != 0 ? plane_wear_by_laws(w) : plane_wear(w);
   for (BulkWalls::NearMesh& m : bulk_->walls().meshes()) {
     const contact::SphereRow& s = bulk_->spheres().row[static_cast<std::size_t>(m.sphere)];
     const auto w = static_cast<std::size_t>(m.wall);
     const auto material = static_cast<int>(s.material);
+    if (by_laws_[w] != 0) {
+      law_[w] += m.contact->deposit_by_laws(
+          walls_[w], wear_laws(material, walls_[w].material()), {{}, {}, {}, s.radius, 1.0 / s.inverse_mass},
+          pair(material, walls_[w].material()), dt_, account_[w],
+          [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
+      continue;
+    }
     const double alpha_s = groove_coefficient(material, walls_[w].material());
     if (alpha_s == 0.0 || (m.contact->touches().empty() && m.contact->unpiled_volume() == 0.0)) continue;
     const double volume =
@@ -66,6 +79,55 @@ double Simulation::plane_wear(std::size_t w) const {
   return volume;
 }
 
+/// The same by several laws. A plane's springs know no first touch but that of this step: it counts at once.
+double Simulation::plane_wear_by_laws(std::size_t w) {
+  const contact::PlaneList& plane = bulk_->walls().planes()[w];
+  const geometry::Pose& pose = poses_[w];
+  const Vec3 n = pose.turn(walls_[w].setup().mesh.normal);
+  const double level = dot(n, pose.to_world(walls_[w].setup().mesh.position));
+  double volume = 0.0;
+  for (std::size_t k = 0; k < plane.size(); ++k) {
+    if (plane.touching[k] == 0) continue;
+    const auto& s = bulk_->spheres().row[static_cast<std::size_t>(plane.sphere[k])];
+    const auto material = static_cast<int>(s.material);
+    const wear::Laws& laws = wear_laws(material, walls_[w].material());
+    const double elastic = contact::hertz_force(pair(material, walls_[w].material()), s.radius,
+                                                s.radius - (dot(n, s.position()) - level));
+    const Vec3 arm = -s.radius * n;
+    Vec3 v = s.velocity() + cross(s.spin(), arm) - pose.velocity_at(s.position() + arm);
+    if (walls_[w].is_belt()) v -= pose.turn(walls_[w].belt_velocity(walls_[w].setup().mesh.normal));
+    const double v_n = dot(v, n);
+    const Vec3 F_t = plane.load[k].force() - plane.F_n[k] * n;
+    wear::MechanismVolumes volumes{};
+    wear::add_work(laws,
+                   {.contact = {std::max(plane.F_n[k], 0.0), plane.slip[k]},
+                    .shear_work = norm(F_t) * plane.slip[k],
+                    .normal_loss = std::max((elastic - plane.F_n[k]) * v_n * dt_, 0.0)},
+                   volumes);
+    if (plane.fresh[k] != 0 && v_n < 0.0) {
+      const double speed = norm(v);
+      const wear::Impact impact{speed, std::asin(std::min(1.0, -v_n / speed)), 1.0 / s.inverse_mass,
+                                2.0 * s.radius};
+      wear::add_impact(laws, impact, volumes);
+      if (laws.strikes()) account_[w].impacts.add(impact, volumes);
+    }
+    for (std::size_t m = 0; m < volumes.size(); ++m) account_[w].law[m] += volumes[m];
+    volume += wear::total(volumes);
+  }
+  return volume;
+}
+
+bool Simulation::wears_by_laws() const noexcept {
+  return std::ranges::any_of(by_laws_, [](char by) { return by != 0; });
+}
+
+wear::MechanismVolumes Simulation::law_volumes(std::size_t wall) const noexcept {
+  if (by_laws_[wall] != 0) return account_[wall].law;
+  wear::MechanismVolumes volumes{};
+  volumes[static_cast<std::size_t>(wear::Mechanism::archard)] = law_[wall];
+  return volumes;
+}
+
 void Simulation::wear_tip(std::size_t p, std::size_t w) {
   const double alpha_s = wear_coefficient(walls_[w].material(), particles_.material[p]);
   if (alpha_s == 0.0) return;
@@ -75,7 +137,8 @@ void Simulation::wear_tip(std::size_t p, std::size_t w) {
 }
 
 /// Of what leaves the groove the removed fraction is lost, and the rest is piled up beside the contact.
-void Simulation::plough(SphereWall& contact, std::size_t w, const SlidingSphere& sphere, double groove_volume) {
+void Simulation::plough(SphereWall& contact, std::size_t w, const SlidingSphere& sphere,
+                        double groove_volume) {
   // Piles may lie apart where many passes share them.
   constexpr double kRevolutions = 24.0, kNearest = 0.5, kFurthest = 8.0;
   const double removed = removed_fraction() * groove_volume, displaced = groove_volume - removed;

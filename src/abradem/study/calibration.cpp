@@ -522,6 +522,14 @@ std::size_t calibrated_pair(const Setup& setup, const std::string& wanted) {
         std::ranges::any_of(setup.particles, [&](const auto& x) { return x.material == w.abrader; });
     if (!wall || !grain) continue;
     const std::string name = w.abrader + "/" + w.worn;
+    if (w.laws != std::vector{simulation::WearLaw::archard}) {
+      if (name == wanted)
+        throw InputError(
+            fmt::format("[wear.\"{}\"] has other laws than Archard's, whose coefficient is "
+                        "calibrated",
+                        name));
+      continue;
+    }
     if (name == wanted) return i;
     able.push_back(i);
     names += (names.empty() ? "" : ", ") + name;

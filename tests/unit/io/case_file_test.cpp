@@ -534,6 +534,41 @@ TEST(Acceleration, IsOneForAllPairsAndNeedsSomethingThatTurns) {
                        "acceleration leaves out revolutions, but no wall has a motion"));
 }
 
+TEST(WearLaws, AreOneOrAList) {
+  using simulation::WearLaw;
+  const std::string pair = "wear.\"iron_ore/mild_steel\"";
+  EXPECT_EQ(example().wear[0].laws, std::vector{WearLaw::archard});
+  const CaseSetup several = read(kSmall + std::string(R"([material.steel]
+density = 7850
+shear_modulus = "78 GPa"
+poisson_ratio = 0.3
+hardness = "143 HV"
+[wear."ore/steel"]
+law = ["shear_work", "finnie", "oka", "impact_energy"]
+shear_work_coefficient = "0.01 mm^3/J"
+finnie_coefficient = "2e-11 1/Pa"
+oka_n1 = 0.8
+normal_energy_coefficient = "2 mm^3/kJ"
+)"));
+  const simulation::WearSetup& w = several.wear[0];
+  EXPECT_EQ(w.laws,
+            (std::vector{WearLaw::shear_work, WearLaw::finnie, WearLaw::oka, WearLaw::impact_energy}));
+  EXPECT_DOUBLE_EQ(w.shear_work_coefficient, 1e-11);
+  EXPECT_DOUBLE_EQ(w.normal_energy_coefficient, 2e-12);
+  EXPECT_EQ(w.oka.n1, 0.8);
+  EXPECT_EQ(w.oka.n2, std::nullopt);
+  EXPECT_EQ(read(resolved_case(several)), several);
+
+  EXPECT_TRUE(contains(complaint_about_example(pair + ".law=[]"), "is an empty list"));
+  EXPECT_TRUE(contains(complaint_about_example(pair + ".law=[\"archard\",\"archard\"]"), "twice"));
+  EXPECT_TRUE(contains(complaint_about_example(pair + ".law=finnie"), "finnie_coefficient"));
+  EXPECT_TRUE(contains(complaint_about_example(pair + ".law=ocka"), "did you mean \"oka\""));
+  EXPECT_TRUE(contains(complaint(kSmall + std::string("[wear.\"ore/ore\"]\nlaw = \"oka\"\n")),
+                       "Oka's law needs the hardness of 'ore'"));
+  EXPECT_TRUE(contains(complaint(kSmall + std::string("[wear.\"ore/ore\"]\nlaw = \"impact_energy\"\n")),
+                       "needs a normal_energy_coefficient"));
+}
+
 TEST(Combination, APairMayBeGivenOnlyOnce) {
   const std::string text = std::string(R"(schema = 1
 [material.a]

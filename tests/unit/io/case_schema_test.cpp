@@ -56,7 +56,7 @@ TEST(CaseTable, IsComplete) {
     EXPECT_TRUE(row.doc.ends_with('.')) << row.key;
     EXPECT_FALSE(row.example.empty()) << row.key;
     EXPECT_NE(row.slot, nullptr) << row.key;
-    EXPECT_EQ(row.kind == Kind::choice, !row.choices.empty()) << row.key;
+    EXPECT_EQ(row.kind == Kind::choice || row.kind == Kind::choices, !row.choices.empty());
     if (!row.when.key.empty()) {
       const Row* decider = sibling(row, row.when.key);
       ASSERT_NE(decider, nullptr) << row.key;
