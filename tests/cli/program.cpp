@@ -1,16 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/program.h"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 
 namespace abradem::test {
 
 namespace fs = std::filesystem;
+
+int break_off(const std::string& arguments, const fs::path& folder, const fs::path& file, int signal) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const std::string command = "cd '" + folder.string() + "' && exec '" ABRADEM_PROGRAM "' " + arguments;
+    ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    ::_exit(127);
+  }
+  for (int i = 0; i < 12000 && !fs::exists(folder / file); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ::kill(child, signal);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+}
 
 ScratchFolder::ScratchFolder() {
   std::string pattern = (fs::temp_directory_path() / "abradem-test-XXXXXX").string();

@@ -17,6 +17,11 @@ struct Outcome {
 [[nodiscard]] Outcome run_program(const std::string& arguments, const std::filesystem::path& folder = ".",
                                   const std::string& before = "true");
 
+/// Runs the program likewise, and sends it a signal as soon as a file (a path in the folder) exists.
+/// @return its exit code, or 1000 + the signal that ended it
+[[nodiscard]] int break_off(const std::string& arguments, const std::filesystem::path& folder,
+                            const std::filesystem::path& file, int signal);
+
 /// A folder of its own, removed at the end.
 class ScratchFolder {
  public:

@@ -2,6 +2,9 @@
 // The published study through the real program: few revolutions, a coarse mesh, few sections.
 #include <gtest/gtest.h>
 
+#include <signal.h>
+
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -70,21 +73,49 @@ TEST(PublishedStudy, RefusesADamagedFileOfValues) {
   EXPECT_NE(outcome.err.find("claims.json: not JSON"), std::string::npos) << outcome.err;
 }
 
+const std::string kScaling =
+    "run " ABRADEM_SOURCE_DIR
+    "/cases/scaling.toml --set run.end='16 rev' --set output.every='1 rev' --set wall.disc.mesh.inner='21 mm'"
+    " --set wall.disc.mesh.outer='23 mm' --set output.contours=24"
+    " --set 'wear.\"iron_ore/mild_steel\".wear_coefficient=1.7e-11 1/Pa' --threads 2 --quiet -o out";
+
 TEST(ScalingStudy, ComparesRunsOfTheSameWear) {
   const ScratchFolder scratch;
   const Outcome outcome = run_program(
-      "run " ABRADEM_SOURCE_DIR
-      "/cases/scaling.toml --set run.end='16 rev' --set output.every='1 rev' --set wall.disc.mesh.inner='21 "
-      "mm' --set "
-      "wall.disc.mesh.outer='23 mm' --set wall.disc.mesh.size='0.3 mm' --set output.contours=24 --set "
-      "'wear.\"iron_ore/mild_steel\".wear_coefficient=1.7e-11 1/Pa' --set run.increment='0.3 mm' --threads 2 "
-      "--quiet -o out",
-      scratch.path());
+      kScaling + " --set wall.disc.mesh.size='0.3 mm' --set run.increment='0.3 mm'", scratch.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string table = read_file(scratch.path() / "out/tables/scaling-runs.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 13) << table;
   const json figures = json::parse(read_file(scratch.path() / "out/tables/figures.json"));
   EXPECT_EQ(figures.size(), 3U);
+}
+
+/// The hash of the last state of every run.
+std::map<std::string, std::string> state_hashes(const fs::path& study) {
+  std::map<std::string, std::string> hashes;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(study / "runs"))
+    if (entry.path().filename() == "run.json")
+      hashes[fs::relative(entry.path(), study)] = json::parse(read_file(entry.path()))["state_hash"];
+  return hashes;
+}
+
+TEST(ScalingStudy, KilledGoesOnToTheSameRuns) {
+  const std::string study = kScaling + " --set wall.disc.mesh.size='0.2 mm' --set run.increment='0.1 mm'";
+  const ScratchFolder killed, whole;
+  const fs::path first = fs::path("out") / "runs" / "scaling" / "01" / "run.json";
+  EXPECT_EQ(break_off(study, killed.path(), first, SIGKILL), 1000 + SIGKILL);
+  const auto made = fs::last_write_time(killed.path() / first);
+  EXPECT_FALSE(fs::exists(killed.path() / "out/report.html"));
+  const Outcome again = run_program(study, killed.path());
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(fs::last_write_time(killed.path() / first), made);
+  ASSERT_EQ(run_program(study, whole.path()).exit_code, 0);
+  const auto expected = state_hashes(whole.path() / "out");
+  EXPECT_EQ(expected.size(), 18U);
+  EXPECT_EQ(state_hashes(killed.path() / "out"), expected);
+  for (const char* table : {"scaling-profiles.csv", "master-curve.csv", "largest-factor.csv"})
+    EXPECT_EQ(read_file(killed.path() / "out/tables" / table),
+              read_file(whole.path() / "out/tables" / table));
 }
 
 }  // namespace

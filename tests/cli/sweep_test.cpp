@@ -275,21 +275,8 @@ TEST(Sweep, ARunThatCannotBeginIsRecordedToo) {
   EXPECT_EQ(made(folder), before);
 }
 
-/// Starts a sweep of runs that take about a second each, sends the signal when the first is done.
-int break_off(const fs::path& scratch, const std::string& arguments, int signal) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    const std::string command = "cd '" + scratch.string() + "' && exec '" ABRADEM_PROGRAM "' " + arguments;
-    ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-    ::_exit(127);
-  }
-  for (int i = 0; i < 2400 && !fs::exists(scratch / "result" / "runs" / "0001" / "run.json"); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(25));
-  ::kill(child, signal);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-}
+/// What shows that the first run of a sweep is done.
+const fs::path kFirstDone = fs::path("result") / "runs" / "0001" / "run.json";
 
 const std::string kSlow =
     "sweep " + kCase +
@@ -301,7 +288,7 @@ TEST(Sweep, BrokenOffPolitelyGoesOnWhereItStopped) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const ScratchFolder scratch;
     const fs::path folder = scratch.path() / "result";
-    EXPECT_EQ(break_off(scratch.path(), kSlow, signal), 130);
+    EXPECT_EQ(break_off(kSlow, scratch.path(), kFirstDone, signal), 130);
     const json batch = manifest(folder);
     EXPECT_EQ(batch["status"], "interrupted");
     EXPECT_GE(batch["completed"], 1);
@@ -317,7 +304,7 @@ TEST(Sweep, BrokenOffPolitelyGoesOnWhereItStopped) {
 TEST(Sweep, KilledGoesOnWhereItStoppedWithTheSameTable) {
   const ScratchFolder scratch;
   const fs::path folder = scratch.path() / "result";
-  EXPECT_EQ(break_off(scratch.path(), kSlow, SIGKILL), 1000 + SIGKILL);
+  EXPECT_EQ(break_off(kSlow, scratch.path(), kFirstDone, SIGKILL), 1000 + SIGKILL);
   const auto before = made(folder);
   // Its children are told to stop, which may take a moment.
   const Outcome again = run_program(kSlow, scratch.path());

@@ -178,7 +178,7 @@ std::string ledger_table(const RunFolder& run) {
       "class=\"number\">Value</th>"
       "<th scope=\"col\">What it means</th></tr></thead><tbody>\n";
   out += row_html("Law volume", readable(ledger.law_volume_mm3, 6) + " mm³",
-                  "What Archard's law removes: the sum of α F v dt over every contact and step.");
+                  "What the wear laws remove: of Archard's, the sum of α F v dt over every contact and step.");
   out += row_html(
       "Deposited volume", readable(ledger.deposited_volume_mm3, 6) + " mm³",
       "What the elements of the wall were charged with. Equals the law volume unless something was lost "
