@@ -177,8 +177,9 @@ std::string ledger_table(const RunFolder& run) {
       "<table class=\"wide\"><thead><tr><th scope=\"col\">Entry</th><th scope=\"col\" "
       "class=\"number\">Value</th>"
       "<th scope=\"col\">What it means</th></tr></thead><tbody>\n";
-  out += row_html("Law volume", readable(ledger.law_volume_mm3, 6) + " mm³",
-                  "What the wear laws remove: of Archard's, the sum of α F v dt over every contact and step.");
+  out +=
+      row_html("Law volume", readable(ledger.law_volume_mm3, 6) + " mm³",
+               "What the wear laws remove: of Archard's, the sum of α F v dt over every contact and step.");
   out += row_html(
       "Deposited volume", readable(ledger.deposited_volume_mm3, 6) + " mm³",
       "What the elements of the wall were charged with. Equals the law volume unless something was lost "
