@@ -72,6 +72,13 @@ inline std::vector<PlacedSphere> lattice(std::size_t count, std::size_t across, 
   return spheres;
 }
 
+/// Sum of mass times velocity of all particles in numbers [kg m/s].
+inline Vec3 momentum(const simulation::Simulation& run) {
+  Vec3 sum;
+  for (const contact::SphereRow& s : run.bulk()->spheres().row) sum += s.velocity() / s.inverse_mass;
+  return sum;
+}
+
 /// Volume fraction of the spheres within a box, by points on a lattice.
 inline double fraction_within(const contact::Spheres& spheres, const Vec3& low, const Vec3& high,
                               double pitch) {

@@ -11,9 +11,12 @@
 #include "abradem/core/error.h"
 #include "abradem/simulation/simulation.h"
 #include "support/grains.h"
+#include "support/says.h"
 
 namespace abradem::simulation {
 namespace {
+
+using test::says;
 
 constexpr double R = 2e-3;
 
@@ -25,13 +28,6 @@ std::string stopped(Simulation& run, int steps) {
     return error.what();
   }
   return {};
-}
-
-testing::AssertionResult says(const std::string& text, std::initializer_list<const char*> parts) {
-  for (const char* part : parts)
-    if (text.find(part) == std::string::npos)
-      return testing::AssertionFailure() << "'" << part << "' is not in: " << text;
-  return testing::AssertionSuccess();
 }
 
 /// Spheres at given places, without gravity.

@@ -12,9 +12,12 @@
 #include "abradem/core/error.h"
 #include "abradem/simulation/simulation.h"
 #include "support/cases.h"
+#include "support/says.h"
 
 namespace abradem::simulation {
 namespace {
+
+using test::says;
 
 simulation::Setup small_case(Method method = Method::dynamic) {
   test::PinOnDisc pin;
@@ -43,13 +46,6 @@ std::string stopped(Simulation& run, int steps) {
     return error.what();
   }
   return {};
-}
-
-testing::AssertionResult says(const std::string& text, std::initializer_list<const char*> parts) {
-  for (const char* part : parts)
-    if (text.find(part) == std::string::npos)
-      return testing::AssertionFailure() << "'" << part << "' is not in: " << text;
-  return testing::AssertionSuccess();
 }
 
 TEST(Watchdog, NotANumberStopsInTheSameStep) {
