@@ -122,6 +122,7 @@ bool plane_forces(const Spheres& spheres, PlaneList& list, const MovingPlane& pl
             const Vec3 spin = s.spin() - plane.pose.spin;
             const Vec3 torque = plane.pose.turn({list.torque[k].x, list.torque[k].y, list.torque[k].z});
             o.set_constants(count, pair);
+            o.held[count] = sticks ? 1.0 : 0.0;
             o.area[count] = kPi * overlap * (2.0 * s.radius - overlap);
             o.a_c[count] = snapping_radius(pair, s.radius);
             o.wx[count] = spin.x, o.wy[count] = spin.y, o.wz[count] = spin.z;

@@ -71,6 +71,7 @@ class Bulk {
     archive("spheres", self.spheres_)("list", self.list_)("walls", self.walls_);
     for (auto& inserter : self.inserters_) archive("inserter", inserter);
     archive("next_id", self.next_id_)("skin", self.skin_)("travelled", self.travelled_);
+    archive("margin", self.margin_)("near_at", self.near_at_)("fastest_now", self.met_.fastest2);
     archive("wall_time", self.wall_time_)("worn_out", self.worn_out_);
     archive("stability", self.stability_)("fastest", self.fastest_);
     archive("removed", self.removed_)("removed_mass", self.removed_mass_);
@@ -82,6 +83,7 @@ class Bulk {
   void take_in(double time);
   [[nodiscard]] double longest_stretch() const;
   void check_periods() const;
+  [[nodiscard]] double margin(double dt);
   void take_out();
   [[nodiscard]] std::string title(std::size_t i) const;
   void find_named();
@@ -106,6 +108,7 @@ class Bulk {
   std::vector<std::string> names_;
   std::int32_t named_ = 0, next_id_ = 0;
   double skin_ = 0.0, travelled_ = 0.0, wall_time_ = 0.0;  // since the lists were made
+  double margin_ = 0.0, near_at_ = 0.0;  // of the near pairs, and what had been travelled when they were found
   bool worn_out_ = true, sound_ = true;
   contact::Advance met_;
   BulkStability stability_;

@@ -132,7 +132,7 @@ TEST_P(SphereForces, AreThoseOfTheLawPairByPairWhileTheOrderChanges) {
     advance_spheres(spheres.row, load, {0.0, 0.0, -9.81}, kDt);
   }
   EXPECT_GT(reference.springs.size(), 1000u);
-  EXPECT_GT(list.far_target.size(), 50u);
+  EXPECT_GT(list.guest.size(), 50u);
   EXPECT_LT(worst, 1e-12);  // round-off of another order of operations, over 40 steps
   RecordProperty("largest_error", std::to_string(worst));
 }
@@ -237,12 +237,13 @@ TEST(SphereList, HoldsThePairsWithinTheSkinAndNoOthers) {
   SphereList list;
   list.rebuild(spheres, kSkin);
   std::set<std::pair<int, int>> listed;
-  for (std::size_t k = 0; k < list.pairs(); ++k) {
-    EXPECT_LT(list.owner[k], list.partner[k]);
-    const int a = spheres.id[static_cast<std::size_t>(list.owner[k])],
-              b = spheres.id[static_cast<std::size_t>(list.partner[k])];
+  list.for_each_near([&](const ContactBlock& block, std::size_t k) {
+    EXPECT_LT(block.i[k], block.j[k]);
+    const int a = spheres.id[static_cast<std::size_t>(block.i[k])],
+              b = spheres.id[static_cast<std::size_t>(block.j[k])];
     EXPECT_TRUE(listed.insert({std::min(a, b), std::max(a, b)}).second);
-  }
+  });
+  EXPECT_EQ(listed.size(), list.pairs());
   std::size_t near = 0;
   for (std::size_t i = 0; i < spheres.size(); ++i)
     for (std::size_t j = i + 1; j < spheres.size(); ++j) {
@@ -267,13 +268,12 @@ TEST(SphereList, TakesOutThoseThatAreGoneAndKeepsTheOthersSprings) {
   }
   const auto springs = [&] {
     std::map<std::pair<int, int>, Vec3> all;
-    for (std::size_t k = 0; k < list.pairs(); ++k) {
-      if (list.touching[k] == 0) continue;
-      const int a = spheres.id[static_cast<std::size_t>(list.owner[k])],
-                b = spheres.id[static_cast<std::size_t>(list.partner[k])];
-      const Vec3 s{list.spring[k].x, list.spring[k].y, list.spring[k].z};
-      all[{std::min(a, b), std::max(a, b)}] = a < b ? s : -s;
-    }
+    list.for_each_near([&](const ContactBlock& block, std::size_t k) {
+      if (block.touching[k] == 0) return;
+      const int a = spheres.id[static_cast<std::size_t>(block.i[k])],
+                b = spheres.id[static_cast<std::size_t>(block.j[k])];
+      all[{std::min(a, b), std::max(a, b)}] = a < b ? block.spring(k) : -block.spring(k);
+    });
     return all;
   };
   auto before = springs();
