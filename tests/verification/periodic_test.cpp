@@ -43,7 +43,8 @@ TEST(Periodic, GasKeepsItsNumberMomentumAndEnergy) {
 TEST(Periodic, ListHoldsAllPairsOfNearestImages) {
   Simulation run(gas(Periodic::xyz));
   for (int k = 0; k < 400; ++k) run.step();
-  const contact::SphereList& list = run.bulk()->list();
+  contact::SphereList list = run.bulk()->list();
+  list.find_near(run.bulk()->spheres(), 0.0);
   const auto& row = run.bulk()->spheres().row;
   std::set<std::pair<int, int>> listed;
   std::size_t across = 0;

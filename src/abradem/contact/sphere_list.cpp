@@ -334,7 +334,7 @@ bool SphereList::restore_block(const Spheres& spheres, std::size_t b) {
         block.image[c] = image_of(spheres.row[i].position() - spheres.row[at(j)].position());
     }
   }
-  block.pad();
+  block.repeat_last();
   return true;
 }
 
@@ -376,15 +376,17 @@ void ContactBlock::take(const ContactBlock& from) {
   copy(touching, from.touching, size), copy(image, from.image, size);
   copy(sx, from.sx, size), copy(sy, from.sy, size), copy(sz, from.sz, size);
   copy(torque, from.torque, size);
-  pad();
+  for (std::size_t k = count; k < size; ++k) {
+    touching[k] = 0, sx[k] = sy[k] = sz[k] = 0.0;
+    if (!torque.empty()) torque[k] = {};
+  }
+  repeat_last();
 }
 
-void ContactBlock::pad() {
+void ContactBlock::repeat_last() {
   for (std::size_t k = count; k < padded(count); ++k) {
     i[k] = i[count - 1], j[k] = j[count - 1], row[k] = row[count - 1];
-    touching[k] = 0, sx[k] = sy[k] = sz[k] = 0.0;
     if (!image.empty()) image[k] = image[count - 1];
-    if (!torque.empty()) torque[k] = {};
   }
 }
 

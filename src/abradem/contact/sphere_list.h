@@ -33,7 +33,8 @@ struct ContactBlock {
                 double sign);
   /// A copy no longer than it need be.
   void take(const ContactBlock& from);
-  void pad();
+  /// Fills up the columns of who touches whom.
+  void repeat_last();
   /// The spring of pair k [m].
   [[nodiscard]] Vec3 spring(std::size_t k) const noexcept { return {sx[k], sy[k], sz[k]}; }
 };
