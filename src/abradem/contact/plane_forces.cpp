@@ -94,6 +94,11 @@ bool plane_forces(const Spheres& spheres, PlaneList& list, const MovingPlane& pl
         std::size_t count = 0;
         const std::size_t end = std::min(list.size(), (chunk + 1) * kCapacity);
         for (std::size_t k = chunk * kCapacity; k < end; ++k) {
+          const char* const row = reinterpret_cast<const char*>(&spheres.row[at(list.sphere[k])]);
+          __builtin_prefetch(row);
+          __builtin_prefetch(row + 64);
+        }
+        for (std::size_t k = chunk * kCapacity; k < end; ++k) {
           const SphereRow& s = spheres.row[at(list.sphere[k])];
           const double overlap = s.radius - (dot(n, s.position()) - level);
           const PairConstants& pair = by_material[static_cast<std::size_t>(s.material)];

@@ -302,31 +302,26 @@ namespace {
 
 ABRADEM_DISPATCH Advance advance_block(SphereRow* __restrict sphere, const LoadRow* __restrict load,
                                        std::size_t count, const Vec3& gravity, double dt) noexcept {
-  Advance met;
   const Quad fall{gravity.x * dt, gravity.y * dt, gravity.z * dt, 0.0}, step{dt, dt, dt, 0.0};
-  double fastest2 = 0.0, longest2 = 0.0, stability = 0.0;
+  Quad most{};  // of v^2, (v / R)^2 and 2 g + W
+  bool finite = true;
   for (std::size_t i = 0; i < count; ++i) {
     Quad* s = quads(sphere[i]);
     const Quad* l = quads(load[i]);
-    const double R = sphere[i].radius, per_mass = dt * sphere[i].inverse_mass;
-    const double per_inertia = per_mass * 2.5 / (R * R);
+    const double R = sphere[i].radius, per_R2 = 1.0 / (R * R), per_mass = dt * sphere[i].inverse_mass;
+    const double per_inertia = per_mass * 2.5 * per_R2;
     const Quad m{per_mass, per_mass, per_mass, 0.0}, I{per_inertia, per_inertia, per_inertia, 0.0};
     const Quad v = s[1] + (l[0] * m + fall);
     s[1] = v;
     s[0] += v * step;
     s[2] += l[1] * I;
     const Quad v_2 = v * v;
-    const double v2 = v_2[0] + v_2[1] + v_2[2], way2 = v2 / (R * R);
-    const double number = load[i].stiffening * sphere[i].inverse_mass;
-    met.finite &= v2 < 1e300;
-    fastest2 = v2 > fastest2 ? v2 : fastest2;
-    longest2 = way2 > longest2 ? way2 : longest2;
-    stability = number > stability ? number : stability;
+    const double v2 = v_2[0] + v_2[1] + v_2[2];
+    const Quad here{v2, v2 * per_R2, load[i].stiffening * sphere[i].inverse_mass, 0.0};
+    most = here > most ? here : most;
+    finite &= v2 < 1e300;
   }
-  met.fastest2 = fastest2;
-  met.longest = dt * std::sqrt(longest2);
-  met.stability = stability;
-  return met;
+  return {most[0], dt * std::sqrt(most[1]), most[2], finite};
 }
 
 }  // namespace

@@ -188,7 +188,12 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
     sound = contact::plane_forces(spheres, planes_[w], plane_of(around.walls[w], around.poses[w]), constants,
                                   options_, around.dt) &&
             sound;
-    for (std::size_t k = 0; k < planes_[w].size(); ++k) load[at(planes_[w].sphere[k])] += planes_[w].load[k];
+    const contact::PlaneList& plane = planes_[w];
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t k = 0; k < plane.size(); ++k) {
+      __builtin_prefetch(&load[at(plane.sphere[std::min(k + kAhead, plane.size() - 1)])]);
+      load[at(plane.sphere[k])] += plane.load[k];
+    }
   }
   std::vector<std::uint8_t> deep(meshes_.size(), 0);
   core::parallel_for(
