@@ -2,6 +2,7 @@
 #include "abradem/contact/sphere_forces.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "abradem/contact/full_law.h"
 #include "abradem/contact/quads.h"
@@ -249,57 +250,6 @@ ABRADEM_DISPATCH double periodic_with_options(const Work& w, std::size_t count, 
   return forces_of_block<true, true>(w, count, p);
 }
 
-/// Blocks' own pairs first, then what spheres have met as guests of earlier blocks.
-void add_guest_loads(const SphereList& list, std::vector<LoadRow>& load) {
-  core::parallel_blocks(list.blocks(), [&](std::size_t b) {
-    for (const SphereList::Visit& visit : list.visitors[b])
-      for (auto g = at(visit.begin); g < at(visit.end); ++g) load[at(list.guest[g])] += load[list.size() + g];
-  });
-}
-
-}  // namespace
-
-bool sphere_forces(const Spheres& spheres, SphereList& list, const PairTable& table, double dt,
-                   std::vector<LoadRow>& load) {
-  load.resize(list.load_rows());
-  std::vector<double> deepest(list.blocks(), -1.0);
-  core::parallel_blocks(list.blocks(), [&](std::size_t b) {
-    const std::size_t begin = b * SphereList::kBlock, end = std::min(begin + SphereList::kBlock, list.size());
-    const auto clear = [&](std::size_t from, std::size_t to) {
-      std::fill(load.begin() + static_cast<std::ptrdiff_t>(from), load.begin() + static_cast<std::ptrdiff_t>(to),
-                LoadRow{});
-    };
-    clear(begin, end);
-    clear(list.size() + at(list.guest_start[b]), list.size() + at(list.guest_start[b + 1]));
-    PairChunk chunk;
-    if (table.materials == 1)
-      for (std::size_t k = 0; k < kCapacity; ++k) chunk.c.set_constants(k, table.pair[0]);
-    ContactBlock& block = list.near[b];
-    const Work work{spheres.row.data(),
-                    block.i.data(),
-                    block.j.data(),
-                    block.row.data(),
-                    block.touching.data(),
-                    block.sx.data(),
-                    block.sy.data(),
-                    block.sz.data(),
-                    block.torque.empty() ? nullptr : block.torque.data(),
-                    block.image.empty() ? nullptr : block.image.data(),
-                    list.shifts.data(),
-                    load.data(),
-                    &table,
-                    dt};
-    const BlockForces closed = table.options ? periodic_with_options : periodic;
-    const BlockForces open = table.options ? with_options : block_forces;
-    const auto forces = block.image.empty() ? open : closed;
-    deepest[b] = forces(work, block.count, chunk);
-  });
-  add_guest_loads(list, load);
-  return std::ranges::none_of(deepest, [](double d) { return d > 0.0; });
-}
-
-namespace {
-
 ABRADEM_DISPATCH Advance advance_block(SphereRow* __restrict sphere, const LoadRow* __restrict load,
                                        std::size_t count, const Vec3& gravity, double dt) noexcept {
   const Quad fall{gravity.x * dt, gravity.y * dt, gravity.z * dt, 0.0}, step{dt, dt, dt, 0.0};
@@ -321,10 +271,83 @@ ABRADEM_DISPATCH Advance advance_block(SphereRow* __restrict sphere, const LoadR
     most = here > most ? here : most;
     finite &= v2 < 1e300;
   }
-  return {most[0], dt * std::sqrt(most[1]), most[2], finite};
+  return {most[0], dt * std::sqrt(most[1]), most[2], finite, true};
+}
+
+/// Forces of one step, block by block.
+struct Step {
+  const Spheres& spheres;
+  SphereList& list;
+  const PairTable& table;
+  double dt;
+  std::vector<LoadRow>& load;
+
+  [[nodiscard]] std::size_t begin(std::size_t b) const noexcept { return b * SphereList::kBlock; }
+  [[nodiscard]] std::size_t end(std::size_t b) const noexcept {
+    return std::min(begin(b) + SphereList::kBlock, list.size());
+  }
+
+  /// What a block's pairs do to its spheres and to its guests. @return whether none overlap too deeply
+  bool forces(std::size_t b) const {
+    const auto clear = [&](std::size_t from, std::size_t to) {
+      std::fill(load.begin() + static_cast<std::ptrdiff_t>(from), load.begin() + static_cast<std::ptrdiff_t>(to),
+                LoadRow{});
+    };
+    clear(begin(b), end(b));
+    clear(list.size() + at(list.guest_start[b]), list.size() + at(list.guest_start[b + 1]));
+    PairChunk chunk;
+    if (table.materials == 1)
+      for (std::size_t k = 0; k < kCapacity; ++k) chunk.c.set_constants(k, table.pair[0]);
+    ContactBlock& block = list.near[b];
+    const Work work{spheres.row.data(),
+                    block.i.data(),
+                    block.j.data(),
+                    block.row.data(),
+                    block.touching.data(),
+                    block.sx.data(),
+                    block.sy.data(),
+                    block.sz.data(),
+                    block.torque.empty() ? nullptr : block.torque.data(),
+                    block.image.empty() ? nullptr : block.image.data(),
+                    list.shifts.data(),
+                    load.data(),
+                    &table,
+                    dt};
+    const BlockForces closed = table.options ? periodic_with_options : periodic;
+    const BlockForces open = table.options ? with_options : block_forces;
+    return !((block.image.empty() ? open : closed)(work, block.count, chunk) > 0.0);
+  }
+
+  /// What a block's spheres have met as guests of earlier blocks; these must have had their forces.
+  void add_guest_loads(std::size_t b) const {
+    for (const SphereList::Visit& visit : list.visitors[b])
+      for (auto g = at(visit.begin); g < at(visit.end); ++g) load[at(list.guest[g])] += load[list.size() + g];
+  }
+};
+
+Advance together(const std::vector<Advance>& blocks) {
+  Advance all;
+  for (const Advance& m : blocks) {
+    all.fastest2 = std::max(all.fastest2, m.fastest2);
+    all.longest = std::max(all.longest, m.longest);
+    all.stability = std::max(all.stability, m.stability);
+    all.finite = all.finite && m.finite;
+    all.sound = all.sound && m.sound;
+  }
+  return all;
 }
 
 }  // namespace
+
+bool sphere_forces(const Spheres& spheres, SphereList& list, const PairTable& table, double dt,
+                   std::vector<LoadRow>& load) {
+  load.resize(list.load_rows());
+  const Step step{spheres, list, table, dt, load};
+  std::vector<std::uint8_t> sound(list.blocks());
+  core::parallel_blocks(list.blocks(), [&](std::size_t b) { sound[b] = step.forces(b) ? 1 : 0; });
+  core::parallel_blocks(list.blocks(), [&](std::size_t b) { step.add_guest_loads(b); });
+  return std::ranges::all_of(sound, [](std::uint8_t s) { return s != 0; });
+}
 
 Advance advance_spheres(std::span<SphereRow> spheres, std::span<const LoadRow> load, const Vec3& gravity,
                         double dt) {
@@ -334,14 +357,37 @@ Advance advance_spheres(std::span<SphereRow> spheres, std::span<const LoadRow> l
     const std::size_t begin = b * kBlock, count = std::min(kBlock, spheres.size() - begin);
     met[b] = advance_block(spheres.data() + begin, load.data() + begin, count, gravity, dt);
   });
-  Advance all;
-  for (const Advance& m : met) {
-    all.fastest2 = std::max(all.fastest2, m.fastest2);
-    all.longest = std::max(all.longest, m.longest);
-    all.stability = std::max(all.stability, m.stability);
-    all.finite = all.finite && m.finite;
-  }
-  return all;
+  return together(met);
+}
+
+Advance forces_and_advance(Spheres& spheres, SphereList& list, const PairTable& table, double dt,
+                           std::vector<LoadRow>& load, const Vec3& gravity, const AddLoads& add_loads) {
+  load.resize(list.load_rows());
+  const Step step{spheres, list, table, dt, load};
+  std::vector<Advance> met(list.blocks());
+  std::vector<std::atomic<bool>> has_forces(list.blocks());
+  std::vector<std::uint8_t> moved(list.blocks(), 0);
+  const auto move = [&](std::size_t b) {
+    step.add_guest_loads(b);
+    add_loads(step.begin(b), step.end(b));
+    const bool sound = met[b].sound;
+    met[b] = advance_block(spheres.row.data() + step.begin(b), load.data() + step.begin(b),
+                           step.end(b) - step.begin(b), gravity, dt);
+    met[b].sound = sound;
+    moved[b] = 1;
+  };
+  core::parallel_blocks(list.blocks(), [&](std::size_t b) {
+    met[b].sound = step.forces(b);
+    has_forces[b].store(true, std::memory_order_release);
+    const bool free = std::ranges::all_of(list.visitors[b], [&](const SphereList::Visit& visit) {
+      return has_forces[at(visit.block)].load(std::memory_order_acquire);
+    });
+    if (free) move(b);
+  });
+  core::parallel_blocks(list.blocks(), [&](std::size_t b) {
+    if (moved[b] == 0) move(b);
+  });
+  return together(met);
 }
 
 }  // namespace abradem::contact

@@ -235,7 +235,7 @@ void SphereList::find_guests() {
       const auto here = static_cast<std::int32_t>(guest.size());
       std::vector<Visit>& visits = visitors[at(g) / kBlock];
       const bool goes_on = !visits.empty() && visits.back().end == here && here > guest_start.back();
-      if (!goes_on) visits.push_back({here, here});
+      if (!goes_on) visits.push_back({static_cast<std::int32_t>(guest_start.size()) - 1, here, here});
       ++visits.back().end;
       guest.push_back(g);
     }

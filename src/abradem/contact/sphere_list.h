@@ -95,6 +95,7 @@ class SphereList {
 
   /// A run of guests of one block that are spheres of one other.
   struct Visit {
+    std::int32_t block;       ///< that they are guests of
     std::int32_t begin, end;  ///< in `guest`
   };
 

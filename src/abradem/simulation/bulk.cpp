@@ -190,7 +190,9 @@ double Bulk::longest_stretch() const {
 }
 
 void Bulk::compute_forces(const Surroundings& around, Particles& named) {
-  sound_ = contact::sphere_forces(spheres_, list_, table_, around.dt, load_);
+  walls_sound_ = walls_.compute(spheres_, around);
+  if (!needs_loads()) return;  // integrate() finds the forces among the spheres where it uses them
+  pairs_sound_ = contact::sphere_forces(spheres_, list_, table_, around.dt, load_);
   for (std::size_t p = 0; p < place_of_named_.size(); ++p) {
     contact::LoadRow& l = load_[place_of_named_[p]];
     named.force[p] += l.force();
@@ -199,11 +201,18 @@ void Bulk::compute_forces(const Surroundings& around, Particles& named) {
     l = {};
     l.stiffening = stiffening;
   }
-  sound_ = walls_.compute(spheres_, around, load_) && sound_;
+  walls_.add_loads(0, spheres_.size(), load_);
 }
 
 void Bulk::integrate(const Surroundings& around) {
-  met_ = contact::advance_spheres(spheres_.row, load_, around.gravity, around.dt);
+  if (needs_loads()) {
+    met_ = contact::advance_spheres(spheres_.row, load_, around.gravity, around.dt);
+  } else {
+    met_ = contact::forces_and_advance(
+        spheres_, list_, table_, around.dt, load_, around.gravity,
+        [&](std::size_t begin, std::size_t end) { walls_.add_loads(begin, end, load_); });
+    pairs_sound_ = met_.sound;
+  }
   const double fastest = std::sqrt(met_.fastest2);
   fastest_ = std::max(fastest_, fastest);
   travelled_ += fastest * around.dt;
@@ -214,7 +223,7 @@ void Bulk::check(const Surroundings& around, std::uint64_t step) const {
   const bool slow = met_.longest <= kFastest && met_.fastest2 <= fastest_allowed_ * fastest_allowed_ &&
                     walls_.fastest_wall() * around.dt <= skin_;
   if (!met_.finite || !slow) check_motion(around, step);
-  if (!sound_) check_overlaps(around, step);
+  if (!pairs_sound_ || !walls_sound_) check_overlaps(around, step);
 }
 
 void Bulk::check_motion(const Surroundings& around, std::uint64_t step) const {

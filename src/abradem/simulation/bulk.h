@@ -38,8 +38,10 @@ class Bulk {
   /// Takes in what is due for insertion and takes out what has left; makes the lists anew when they have worn
   /// out; finds the contacts with the walls.
   void find_contacts(const Surroundings& around, const Particles& named, std::vector<double>& paper);
-  /// Forces among all, and of the walls on those in numbers; adds their share to the named ones.
+  /// Forces of the walls on those in numbers, and, where others than integrate() ask for them, of all on all;
+  /// adds their share to the named ones.
   void compute_forces(const Surroundings& around, Particles& named);
+  /// Moves them; where nobody has asked for the forces among them, finds these on the way.
   void integrate(const Surroundings& around);
   /// @throws SimulationError naming a particle when the state has left the range that the equations hold in
   void check(const Surroundings& around, std::uint64_t step) const;
@@ -80,6 +82,7 @@ class Bulk {
   [[nodiscard]] bool restore(const Surroundings& around);
 
  private:
+  [[nodiscard]] bool needs_loads() const noexcept { return named_ > 0; }
   void take_in(double time);
   [[nodiscard]] double longest_stretch() const;
   void check_periods() const;
@@ -109,7 +112,7 @@ class Bulk {
   std::int32_t named_ = 0, next_id_ = 0;
   double skin_ = 0.0, travelled_ = 0.0, wall_time_ = 0.0;  // since the lists were made
   double margin_ = 0.0, near_at_ = 0.0;  // of the near pairs, and what had been travelled when they were found
-  bool worn_out_ = true, sound_ = true;
+  bool worn_out_ = true, pairs_sound_ = true, walls_sound_ = true;
   contact::Advance met_;
   BulkStability stability_;
   double removed_mass_ = 0.0, fastest_ = 0.0, fastest_allowed_ = std::numeric_limits<double>::infinity();
