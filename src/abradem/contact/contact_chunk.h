@@ -91,8 +91,8 @@ struct ContactChunk {
   }
 };
 
-/// The law over contacts 0 … count - 1; count a multiple of eight. Where nothing overlaps, all comes out as 0.
-/// docs/theory/contact.md
+/// The law over contacts 0 … count - 1; count a multiple of eight. Where nothing overlaps, all comes out as
+/// 0. docs/theory/contact.md
 ABRADEM_INLINE void hertz_mindlin_loop(ContactChunk& c, std::size_t count, double dt) noexcept {
 #pragma omp simd
   for (std::size_t k = 0; k < count; ++k) {

@@ -70,8 +70,7 @@ ABRADEM_INLINE void gather(const Work& w, PairChunk& p, std::size_t count) noexc
     quad_at(p.ux + k) = u[0], quad_at(p.uy + k) = u[1], quad_at(p.uz + k) = u[2];
   }
 #pragma omp simd
-  for (std::size_t k = 0; k < count; ++k)
-    p.c.sx[k] = w.sx[k], p.c.sy[k] = w.sy[k], p.c.sz[k] = w.sz[k];
+  for (std::size_t k = 0; k < count; ++k) p.c.sx[k] = w.sx[k], p.c.sy[k] = w.sy[k], p.c.sz[k] = w.sz[k];
 }
 
 /// From offsets to normals, overlaps, effective radii and masses, and velocities at the contact.
@@ -201,8 +200,7 @@ ABRADEM_INLINE double forces_of_chunk(const Work& w, PairChunk& p, std::size_t c
     for (std::size_t k = 0; k < padded; ++k) w.touching[k] = p.c.overlap[k] > 0.0 ? 1 : 0;
   }
 #pragma omp simd
-  for (std::size_t k = 0; k < padded; ++k)
-    w.sx[k] = p.c.sx[k], w.sy[k] = p.c.sy[k], w.sz[k] = p.c.sz[k];
+  for (std::size_t k = 0; k < padded; ++k) w.sx[k] = p.c.sx[k], w.sy[k] = p.c.sy[k], w.sz[k] = p.c.sz[k];
   if (kOptions) {
     scatter<true>(w, p, count);
   } else if (w.table->rolling) {
@@ -226,8 +224,8 @@ ABRADEM_INLINE double forces_of_block(const Work& block, std::size_t count, Pair
       __builtin_prefetch(row);
       __builtin_prefetch(row + 64);
     }
-    deepest = std::max(deepest,
-                       forces_of_chunk<kOptions, kPeriodic>(w, p, std::min(kCapacity, count - done)));
+    deepest =
+        std::max(deepest, forces_of_chunk<kOptions, kPeriodic>(w, p, std::min(kCapacity, count - done)));
     w.i += kCapacity, w.j += kCapacity, w.row += kCapacity, w.touching += kCapacity;
     w.sx += kCapacity, w.sy += kCapacity, w.sz += kCapacity;
     if (w.torque != nullptr) w.torque += kCapacity;
@@ -280,7 +278,7 @@ struct Step {
   SphereList& list;
   const PairTable& table;
   double dt;
-  std::vector<LoadRow>& load;
+  LoadRows& load;
 
   [[nodiscard]] std::size_t begin(std::size_t b) const noexcept { return b * SphereList::kBlock; }
   [[nodiscard]] std::size_t end(std::size_t b) const noexcept {
@@ -290,8 +288,8 @@ struct Step {
   /// What a block's pairs do to its spheres and to its guests. @return whether none overlap too deeply
   bool forces(std::size_t b) const {
     const auto clear = [&](std::size_t from, std::size_t to) {
-      std::fill(load.begin() + static_cast<std::ptrdiff_t>(from), load.begin() + static_cast<std::ptrdiff_t>(to),
-                LoadRow{});
+      std::fill(load.begin() + static_cast<std::ptrdiff_t>(from),
+                load.begin() + static_cast<std::ptrdiff_t>(to), LoadRow{});
     };
     clear(begin(b), end(b));
     clear(list.size() + at(list.guest_start[b]), list.size() + at(list.guest_start[b + 1]));
@@ -340,7 +338,7 @@ Advance together(const std::vector<Advance>& blocks) {
 }  // namespace
 
 bool sphere_forces(const Spheres& spheres, SphereList& list, const PairTable& table, double dt,
-                   std::vector<LoadRow>& load) {
+                   LoadRows& load) {
   load.resize(list.load_rows());
   const Step step{spheres, list, table, dt, load};
   std::vector<std::uint8_t> sound(list.blocks());
@@ -361,7 +359,7 @@ Advance advance_spheres(std::span<SphereRow> spheres, std::span<const LoadRow> l
 }
 
 Advance forces_and_advance(Spheres& spheres, SphereList& list, const PairTable& table, double dt,
-                           std::vector<LoadRow>& load, const Vec3& gravity, const AddLoads& add_loads) {
+                           LoadRows& load, const Vec3& gravity, const AddLoads& add_loads) {
   load.resize(list.load_rows());
   const Step step{spheres, list, table, dt, load};
   std::vector<Advance> met(list.blocks());

@@ -13,7 +13,7 @@ namespace abradem::contact {
 /// overwritten; it has list.load_rows() rows, the spheres' first. On all threads; same bits for any number of
 /// them.   @return false when two overlap by more than kDeepest of their effective radius
 [[nodiscard]] bool sphere_forces(const Spheres& spheres, SphereList& list, const PairTable& table, double dt,
-                                 std::vector<LoadRow>& load);
+                                 LoadRows& load);
 
 /// What one step of the integration met.
 struct Advance {
@@ -31,9 +31,9 @@ Advance advance_spheres(std::span<SphereRow> spheres, std::span<const LoadRow> l
 /// Adds to the loads of spheres begin … end - 1; called for several ranges at once.
 using AddLoads = std::function<void(std::size_t begin, std::size_t end)>;
 
-/// sphere_forces, add_loads and advance_spheres in one pass over the memory, to the same bits: a block is moved
-/// as soon as the earlier blocks that it is a guest of need it no longer.
+/// sphere_forces, add_loads and advance_spheres in one pass over the memory, to the same bits: a block is
+/// moved as soon as the earlier blocks that it is a guest of need it no longer.
 Advance forces_and_advance(Spheres& spheres, SphereList& list, const PairTable& table, double dt,
-                           std::vector<LoadRow>& load, const Vec3& gravity, const AddLoads& add_loads);
+                           LoadRows& load, const Vec3& gravity, const AddLoads& add_loads);
 
 }  // namespace abradem::contact

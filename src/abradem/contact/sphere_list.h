@@ -9,8 +9,8 @@
 
 namespace abradem::contact {
 
-/// The contacts of one block of spheres, and pairs so near that they may soon be some: i < j, i of this block,
-/// ascending by (i, j). The columns go on to a multiple of eight with copies of the last pair.
+/// The contacts of one block of spheres, and pairs so near that they may soon be some: i < j, i of this
+/// block, ascending by (i, j). The columns go on to a multiple of eight with copies of the last pair.
 struct ContactBlock {
   std::size_t count = 0;
   std::vector<std::int32_t> first;            ///< first pair of each sphere of the block; one more than these
@@ -42,8 +42,8 @@ struct ContactBlock {
 /// Pairs of spheres nearer than a skin (Verlet list, CSR), and among them those nearer than a margin, which
 /// are looked at in every step.
 ///
-/// A pair belongs to the lower of its two spheres. The pairs within the skin hold while no sphere has moved by
-/// more than half of it since they were found, those within the margin likewise.
+/// A pair belongs to the lower of its two spheres. The pairs within the skin hold while no sphere has moved
+/// by more than half of it since they were found, those within the margin likewise.
 ///
 /// Spheres are worked through in blocks of kBlock. What a block's contacts do to spheres of later blocks, its
 /// guests, is summed in rows of its own behind those of the spheres and added afterwards block by block, so
@@ -99,10 +99,10 @@ class SphereList {
     std::int32_t begin, end;  ///< in `guest`
   };
 
-  std::vector<std::int32_t> start;    ///< first pair of each sphere; one more than spheres
-  std::vector<std::int32_t> partner;  ///< of each pair within the skin; rows ascend
-  std::vector<ContactBlock> near;     ///< of each block, the pairs within the margin
-  std::vector<std::int32_t> guest;    ///< guests of all blocks, block by block, ascending
+  std::vector<std::int32_t> start;           ///< first pair of each sphere; one more than spheres
+  std::vector<std::int32_t> partner;         ///< of each pair within the skin; rows ascend
+  std::vector<ContactBlock> near;            ///< of each block, the pairs within the margin
+  std::vector<std::int32_t> guest;           ///< guests of all blocks, block by block, ascending
   std::vector<std::int32_t> guest_start;     ///< first guest of each block; one more than blocks
   std::vector<std::vector<Visit>> visitors;  ///< of each block, its spheres as guests of earlier blocks
   std::array<SpringRow, 27> shifts{};

@@ -57,7 +57,7 @@ class Bulk {
   [[nodiscard]] const contact::SphereList& list() const noexcept { return list_; }
   [[nodiscard]] std::int32_t named() const noexcept { return named_; }
   /// Forces of the last step's contacts, in the order of spheres(); those of named particles are handed over.
-  [[nodiscard]] const std::vector<contact::LoadRow>& loads() const noexcept { return load_; }
+  [[nodiscard]] const contact::LoadRows& loads() const noexcept { return load_; }
   [[nodiscard]] const std::vector<Inserter>& inserters() const noexcept { return inserters_; }
   /// Largest 2 g + W met. docs/theory/time-step.md
   [[nodiscard]] double worst_stability() const noexcept { return stability_.worst(); }
@@ -102,7 +102,7 @@ class Bulk {
   contact::Spheres spheres_;
   contact::SphereList list_;
   contact::PairTable table_;
-  std::vector<contact::LoadRow> load_;
+  contact::LoadRows load_;
   BulkWalls walls_;
   std::vector<Inserter> inserters_;
   std::optional<DomainSetup> domain_;
@@ -111,7 +111,8 @@ class Bulk {
   std::vector<std::string> names_;
   std::int32_t named_ = 0, next_id_ = 0;
   double skin_ = 0.0, travelled_ = 0.0, wall_time_ = 0.0;  // since the lists were made
-  double margin_ = 0.0, near_at_ = 0.0;  // of the near pairs, and what had been travelled when they were found
+  double margin_ = 0.0,
+         near_at_ = 0.0;  // of the near pairs, and what had been travelled when they were found
   bool worn_out_ = true, pairs_sound_ = true, walls_sound_ = true;
   contact::Advance met_;
   BulkStability stability_;

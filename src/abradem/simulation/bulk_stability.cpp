@@ -105,9 +105,8 @@ Scheme scheme_of(const Link& link, const contact::Spheres& spheres, const std::v
 std::optional<BulkStability::Mode> BulkStability::watch(const contact::Spheres& spheres,
                                                         const contact::SphereList& list,
                                                         const contact::PairTable& table,
-                                                        const std::vector<contact::LoadRow>& load,
-                                                        const BulkWalls& walls, const Surroundings& around,
-                                                        double largest) {
+                                                        const contact::LoadRows& load, const BulkWalls& walls,
+                                                        const Surroundings& around, double largest) {
   worst_ = std::max(worst_, largest);
   // Twice the largest sum of one sphere bounds 2 g + W of every motion: nearly all runs end here.
   constexpr double kSafe = 0.5 * Scheme::kLimit;

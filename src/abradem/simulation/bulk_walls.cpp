@@ -211,7 +211,7 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
   return sound && std::ranges::none_of(deep, [](std::uint8_t d) { return d != 0; });
 }
 
-void BulkWalls::add_loads(std::size_t begin, std::size_t end, std::vector<contact::LoadRow>& load) const {
+void BulkWalls::add_loads(std::size_t begin, std::size_t end, contact::LoadRows& load) const {
   const auto first = static_cast<std::int32_t>(begin), last = static_cast<std::int32_t>(end);
   for (const contact::PlaneList& plane : planes_) {
     const auto from = std::ranges::lower_bound(plane.sphere, first) - plane.sphere.begin();

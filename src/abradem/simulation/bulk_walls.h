@@ -47,7 +47,7 @@ class BulkWalls {
   /// The walls' forces. @return false when a sphere is too deep in a wall
   [[nodiscard]] bool compute(const contact::Spheres& spheres, const Surroundings& around);
   /// Adds them to the loads of spheres begin … end - 1.
-  void add_loads(std::size_t begin, std::size_t end, std::vector<contact::LoadRow>& load) const;
+  void add_loads(std::size_t begin, std::size_t end, contact::LoadRows& load) const;
 
   [[nodiscard]] std::vector<NearMesh>& meshes() noexcept { return meshes_; }
   [[nodiscard]] const std::vector<NearMesh>& meshes() const noexcept { return meshes_; }

@@ -112,7 +112,7 @@ TEST_P(SphereForces, AreThoseOfTheLawPairByPairWhileTheOrderChanges) {
   Spheres spheres = crowd(1500, 7);  // two blocks, so that there are far pairs
   SphereList list;
   AllPairs reference;
-  std::vector<LoadRow> load;
+  LoadRows load;
   double worst = 0.0;
   for (int step = 0; step < 40; ++step) {
     if (step % 8 == 0) list.rebuild(spheres, kSkin);
@@ -146,7 +146,7 @@ TEST(SphereForces, WithOptionsThatAreOffAreThoseWithout) {
     Spheres a = crowd(1500, 7), b = a;
     SphereList of_a, of_b;
     of_b.remember_torques();
-    std::vector<LoadRow> on_a, on_b;
+    LoadRows on_a, on_b;
     for (int step = 0; step < 30; ++step) {
       if (step % 8 == 0) of_a.rebuild(a, kSkin), of_b.rebuild(b, kSkin);
       ASSERT_TRUE(sphere_forces(a, of_a, plain, kDt, on_a));
@@ -170,14 +170,14 @@ TEST(SphereForces, WithOptionsActOnBothAndDoNotDependOnThreadsOrOrder) {
   properties[1].options.cohesion = properties[2].options.cohesion = 1e4;
   PairTable table = table_of(properties);
   table.options = table.adhesion = true;
-  std::vector<LoadRow> first;
+  LoadRows first;
   const int before = omp_get_max_threads();
   for (const int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
     Spheres spheres = crowd(4000, 3);
     SphereList list;
     list.remember_torques();
-    std::vector<LoadRow> load;
+    LoadRows load;
     for (int step = 0; step < 20; ++step) {
       if (step % 7 == 0) list.rebuild(spheres, kSkin);
       ASSERT_TRUE(sphere_forces(spheres, list, table, kDt, load));
@@ -200,14 +200,14 @@ TEST(SphereForces, WithOptionsActOnBothAndDoNotDependOnThreadsOrOrder) {
 
 TEST(SphereForces, AreTheSameBitsForAnyNumberOfThreads) {
   const PairTable table = table_of(two_materials(0.02));
-  std::vector<LoadRow> first;
+  LoadRows first;
   const int before = omp_get_max_threads();
   for (const int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
     Spheres spheres = crowd(4000, 3);
     SphereList list;
     list.rebuild(spheres, kSkin);
-    std::vector<LoadRow> load;
+    LoadRows load;
     for (int step = 0; step < 5; ++step) {
       ASSERT_TRUE(sphere_forces(spheres, list, table, kDt, load));
       advance_spheres(spheres.row, load, {}, kDt);
@@ -228,7 +228,7 @@ TEST(SphereForces, ReportAnOverlapBeyondTheLaw) {
   spheres.row[1].set_position({0.89 * (spheres.row[0].radius + spheres.row[1].radius), 0, 0});
   SphereList list;
   list.rebuild(spheres, kSkin);
-  std::vector<LoadRow> load;
+  LoadRows load;
   EXPECT_FALSE(sphere_forces(spheres, list, table, kDt, load));
 }
 
@@ -262,7 +262,7 @@ TEST(SphereList, TakesOutThoseThatAreGoneAndKeepsTheOthersSprings) {
   Spheres spheres = crowd(300, 5);
   SphereList list;
   list.rebuild(spheres, kSkin);
-  std::vector<LoadRow> load;
+  LoadRows load;
   for (int step = 0; step < 3; ++step) {
     ASSERT_TRUE(sphere_forces(spheres, list, table, kDt, load));
     advance_spheres(spheres.row, load, {}, kDt);
