@@ -59,10 +59,12 @@ std::vector<Link> links_of(const contact::Spheres& spheres, const contact::Spher
     link.n = apart * (1.0 / distance);
     links.push_back(link);
   });
-  const auto add_wall = [&](std::int32_t sphere, std::size_t w, const Vec3& n, double a) {
+  const auto add_wall = [&](std::int32_t sphere, std::size_t w, const Vec3& n, double a, double weight) {
     const contact::SphereRow& s = spheres.row[at(sphere)];
     const auto& pair = around.pair(static_cast<int>(s.material), around.walls[w].material());
     Link link = link_of(contact::PairConstants::of(pair), a, 1.0 / s.inverse_mass, around.dt);
+    link.damping *= weight;
+    link.stiffness *= weight;
     link.mode.sphere = at(sphere);
     link.mode.wall = static_cast<std::int32_t>(w);
     link.n = around.poses[w].turn(n);
@@ -76,12 +78,13 @@ std::vector<Link> links_of(const contact::Spheres& spheres, const contact::Spher
       const double height =
           dot(n, around.poses[w].to_body(before(s, around.dt)) - around.walls[w].setup().mesh.position);
       if (plane.touching[k] != 0 && hot[at(plane.sphere[k])] != 0 && height < s.radius)
-        add_wall(plane.sphere[k], w, n, std::sqrt(s.radius * (s.radius - height)));
+        add_wall(plane.sphere[k], w, n, std::sqrt(s.radius * (s.radius - height)), 1.0);
     }
   }
   for (const BulkWalls::NearMesh& m : walls.meshes())
     if (hot[at(m.sphere)] != 0)
-      for (const SphereWall::Touch& t : m.contact->touches()) add_wall(m.sphere, at(m.wall), t.n, t.a);
+      for (const SphereWall::Touch& t : m.contact->touches())
+        add_wall(m.sphere, at(m.wall), t.n, t.a, t.weight);
   return links;
 }
 
