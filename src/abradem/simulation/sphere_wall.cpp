@@ -602,6 +602,8 @@ double SphereWall::pending_volume() const noexcept {
 /// Adds what the centroids of the elements in contact have moved since they were last noted.
 void SphereWall::add_centroid_motion(const Wall& wall) {
   if (wall.setup().deformation != DeformationRule::conserving) return;
+  if (noted_revision_ == wall.view().revision && !noted_.empty()) return;  // nothing has moved since
+  noted_revision_ = wall.view().revision;
   const geometry::TriangleMesh& mesh = wall.surface().mesh();
   const bool patch = by_patches(wall);
   const std::span<const double> excess = patches_.node_excess();
@@ -657,6 +659,7 @@ geometry::Index SphereWall::nearest_triangle(const Vec3& c) const noexcept {
 }
 
 void SphereWall::note_nodes() {
+  noted_revision_ = kNeverNoted;
   noted_.resize(candidates_.node_count());
   motion_.assign(candidates_.x.size(), {});
   for (std::size_t i = 0; i < noted_.size(); ++i) noted_[i] = candidates_.node_position(i);

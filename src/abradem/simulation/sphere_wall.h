@@ -295,8 +295,10 @@ class SphereWall {
   double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
   double tip_area_ = 0.0;                       // of the tip under pressure, of late [m^2]
   wear::RidgeBuilder ridges_;
-  double unpiled_ = 0.0, slid_ = 0.0;                 // since the last pile [m^3, m]
-  std::vector<Pressing> ploughing_;                   // the last contacts
+  double unpiled_ = 0.0, slid_ = 0.0;  // since the last pile [m^3, m]
+  std::vector<Pressing> ploughing_;    // the last contacts
+  static constexpr std::uint64_t kNeverNoted = ~std::uint64_t{0};
+  std::uint64_t noted_revision_ = kNeverNoted;        // of the surface, when its nodes were last noted
   std::vector<Vec3> noted_;                           // of each candidate node: where it was when last noted
   std::vector<contact::kernels::NodeMotion> motion_;  // since then, padded
   std::vector<double> terms_;                         // scratch
