@@ -53,7 +53,8 @@ bool stronger(const PointContact& a, const PointContact& b) noexcept {
 
 }  // namespace
 
-void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip) {
+void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip,
+                                 bool sheet) {
   touched_.clear();
   excess_.assign(candidates.x.size(), -1.0);
   const double inverse = 1.0 / (R * R);
@@ -70,7 +71,8 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
     const double distance = norm(offset);
     if (distance >= R || distance == 0.0) continue;
     // A triangle seen from behind belongs to the far side of the solid.
-    if (candidates.ax[t] * offset.x + candidates.ay[t] * offset.y + candidates.az[t] * offset.z < 0.0)
+    if (!sheet &&
+        candidates.ax[t] * offset.x + candidates.ay[t] * offset.y + candidates.az[t] * offset.z < 0.0)
       continue;
     const auto local = static_cast<std::int32_t>(t);
     const double overlap = tip.worn() ? tip.overlap(-offset, R) : R - distance;
@@ -85,7 +87,7 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
 
 std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates,
                                                                const Vec3& c, double R, const Tip& tip) {
-  collect(candidates, c, R, tip);
+  collect(candidates, c, R, tip, false);
   std::sort(touched_.begin(), touched_.end(), stronger);
   accepted_.clear();
   for (const PointContact& p : touched_) {
@@ -106,8 +108,8 @@ std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandida
 }
 
 std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates& candidates, const Vec3& c,
-                                                           double R, const Tip& tip) {
-  collect(candidates, c, R, tip);
+                                                           double R, const Tip& tip, bool sheet) {
+  collect(candidates, c, R, tip, sheet);
   find_flat_sets(candidates);
   // Each set's deepest point, strongest sets first.
   std::vector<PointContact> best;
