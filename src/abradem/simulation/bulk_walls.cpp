@@ -184,8 +184,7 @@ void BulkWalls::find(const contact::Spheres& spheres, const Surroundings& around
       kWorthSharing);
 }
 
-bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& around,
-                        std::vector<contact::LoadRow>& load) {
+bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& around) {
   bool sound = true;
   for (std::size_t w = 0; w < planes_.size(); ++w) {
     if (planes_[w].size() == 0) continue;
@@ -193,7 +192,6 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
     sound = contact::plane_forces(spheres, planes_[w], plane_of(around.walls[w], around.poses[w]), constants,
                                   options_, around.dt) &&
             sound;
-    for (std::size_t k = 0; k < planes_[w].size(); ++k) load[at(planes_[w].sphere[k])] += planes_[w].load[k];
   }
   std::vector<std::uint8_t> deep(meshes_.size(), 0);
   core::parallel_for(
@@ -215,8 +213,18 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
         }
       },
       kWorthSharing);
-  for (const NearMesh& m : meshes_) load[at(m.sphere)] += m.load;
   return sound && std::ranges::none_of(deep, [](std::uint8_t d) { return d != 0; });
+}
+
+void BulkWalls::add_loads(std::size_t begin, std::size_t end, contact::LoadRows& load) const {
+  const auto first = static_cast<std::int32_t>(begin), last = static_cast<std::int32_t>(end);
+  for (const contact::PlaneList& plane : planes_) {
+    const auto from = std::ranges::lower_bound(plane.sphere, first) - plane.sphere.begin();
+    for (auto k = static_cast<std::size_t>(from); k < plane.size() && plane.sphere[k] < last; ++k)
+      load[at(plane.sphere[k])] += plane.load[k];
+  }
+  auto near = std::ranges::lower_bound(meshes_, first, {}, &NearMesh::sphere);
+  for (; near != meshes_.end() && near->sphere < last; ++near) load[at(near->sphere)] += near->load;
 }
 
 Vec3 BulkWalls::force_on(std::size_t wall) const noexcept {

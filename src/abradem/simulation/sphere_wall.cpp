@@ -289,6 +289,7 @@ bool SphereWall::compute_with_options(Touch& touch, const Vec3& v, const SphereS
   const contact::PairConstants constants = contact::PairConstants::of(pair);
   c.set_constants(0, constants);
   o.set_constants(0, constants);
+  o.held[0] = 1.0;  // what is found apart is found because it sticks
   // The contact rule knows the elastic force; a patch in a groove is stiffer than Hertz on a plane.
   const double plane = touch.overlap > 0.0 ? contact::hertz_force(pair, R, touch.overlap) : 0.0;
   if (plane > 0.0) c.elastic[0] *= touch.elastic_force / touch.weight / plane;
