@@ -67,7 +67,8 @@ void PointContactFinder::travel(const MeshCandidates& candidates, const Vec3& c,
   odometer_ = candidates.odometer();
 }
 
-void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip) {
+void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip,
+                                 bool sheet) {
   travel(candidates, c, R);
   touched_.clear();
   excess_.assign(candidates.x.size(), -1.0);
@@ -87,7 +88,8 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
     if (distance >= R) wake_[t] = way_ + 0.999 * (distance - R);  // less by what rounding might do
     if (distance >= R || distance == 0.0) continue;
     // A triangle seen from behind belongs to the far side of the solid.
-    if (candidates.ax[t] * offset.x + candidates.ay[t] * offset.y + candidates.az[t] * offset.z < 0.0)
+    if (!sheet &&
+        candidates.ax[t] * offset.x + candidates.ay[t] * offset.y + candidates.az[t] * offset.z < 0.0)
       continue;
     const auto local = static_cast<std::int32_t>(t);
     const double overlap = tip.worn() ? tip.overlap(-offset, R) : R - distance;
@@ -102,7 +104,7 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
 
 std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates,
                                                                const Vec3& c, double R, const Tip& tip) {
-  collect(candidates, c, R, tip);
+  collect(candidates, c, R, tip, false);
   std::sort(touched_.begin(), touched_.end(), stronger);
   accepted_.clear();
   for (const PointContact& p : touched_) {
@@ -123,8 +125,8 @@ std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandida
 }
 
 std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates& candidates, const Vec3& c,
-                                                           double R, const Tip& tip) {
-  collect(candidates, c, R, tip);
+                                                           double R, const Tip& tip, bool sheet) {
+  collect(candidates, c, R, tip, sheet);
   find_flat_sets(candidates);
   // Each set's deepest point, strongest sets first.
   std::vector<PointContact> best;

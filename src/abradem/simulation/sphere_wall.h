@@ -256,8 +256,9 @@ class SphereWall {
   void touch_patches(double R, std::span<const contact::Patch> patches);
   void touch_points(const Wall& wall, double R, const contact::PairProperties& pair,
                     std::span<const contact::PointContact> points);
-  void touch_either(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
-  void note_width();
+  void touch_either(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair,
+                    bool patches_first);
+  [[nodiscard]] bool suit_points(std::span<const contact::PointContact> points, double R) const noexcept;
   [[nodiscard]] bool by_patches(const Wall& wall) const noexcept;
   Memory& recall(const Touch& touch, ContactRule rule);
   void watch_impact(Memory& memory, const Touch& touch, const Vec3& v) noexcept;
@@ -281,7 +282,6 @@ class SphereWall {
   std::vector<Spot> spots_;
   std::vector<Memory> memory_, kept_;
   std::vector<char> mask_;
-  double narrowest_ = 0.0;            // `automatic`: least width of the candidates as they were gathered [m]
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
   bool stale_ = true;                 // the candidates were gathered anew in this step
   double reach_ = 0.0;
