@@ -82,6 +82,15 @@ const std::array kRows{
         .example = "\"0.5 s\"",
         .doc = "Time at which the wall is taken away, as a gate is."},
 
+    Row{.section = "wall.*",
+        .key = "thickness",
+        .need = Need::optional,
+        .slot = ABRADEM_SLOT(wall->thickness),
+        .unit = "mm",
+        .limits = kPositive,
+        .example = "\"20 mm\"",
+        .doc = "Thickness of the liner that may wear off; the report says when its worst places get there."},
+
     Row{.section = "wall.*.mesh",
         .key = "shape",
         .kind = Kind::choice,
@@ -243,6 +252,27 @@ const std::array kRows{
         .doc = "Velocity at which the surface itself runs over the wall, as a conveyor belt does; turned "
                "into the "
                "surface where it is curved, at its full speed. The wall moves as kind says besides."},
+
+    Row{.section = "region.*",
+        .key = "wall",
+        .kind = Kind::text,
+        .slot = ABRADEM_SLOT(region->wall),
+        .example = "\"liner\"",
+        .doc = "Name of the wall that it is a part of."},
+    Row{.section = "region.*",
+        .key = "low",
+        .kind = Kind::vector,
+        .slot = ABRADEM_SLOT(region->low),
+        .unit = "mm",
+        .example = "[\"-50 mm\", \"-50 mm\", \"-10 mm\"]",
+        .doc = "Lowest corner of the box, in the wall's frame."},
+    Row{.section = "region.*",
+        .key = "high",
+        .kind = Kind::vector,
+        .slot = ABRADEM_SLOT(region->high),
+        .unit = "mm",
+        .example = "[\"50 mm\", \"50 mm\", \"10 mm\"]",
+        .doc = "Highest corner."},
 
     Row{.section = "particle.*",
         .key = "material",

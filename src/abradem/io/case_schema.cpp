@@ -45,6 +45,7 @@ Target target_with_defaults() {
     s.contacts.emplace_back();
     s.wear.emplace_back();
     s.walls.emplace_back();
+    s.regions.emplace_back();
     s.particles.emplace_back();
     s.ploughing.emplace();
     s.insertions.emplace_back();
@@ -57,8 +58,15 @@ Target target_with_defaults() {
     s.study->variations.emplace_back();
     return s;
   }();
-  return {&setup,          &setup.materials[0], &setup.contacts[0],   &setup.wear[0],
-          &setup.walls[0], &setup.particles[0], &setup.insertions[0], &setup.study->variations[0]};
+  return {&setup,
+          &setup.materials[0],
+          &setup.contacts[0],
+          &setup.wear[0],
+          &setup.walls[0],
+          &setup.regions[0],
+          &setup.particles[0],
+          &setup.insertions[0],
+          &setup.study->variations[0]};
 }
 
 /// { "wall.disc.mesh.size" = ["0.1 mm", "0.2 mm"] }

@@ -27,6 +27,7 @@ struct Target {
   simulation::ContactSetup* contact = nullptr;
   simulation::WearSetup* wear = nullptr;
   simulation::WallSetup* wall = nullptr;
+  simulation::RegionSetup* region = nullptr;
   simulation::ParticleSetup* particle = nullptr;
   simulation::InsertionSetup* insertion = nullptr;
   simulation::VariationSetup* variation = nullptr;

@@ -65,6 +65,7 @@ Simulation::Simulation(Setup setup, const MeshSource& source) : setup_(std::move
   find_pair_properties();
   check_ploughing();
   choose_accounts();
+  choose_maps();
   add_particles();
   add_tips();
   sphere_walls_.resize(particles_.size() * walls_.size());
