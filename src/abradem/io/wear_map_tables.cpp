@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "abradem/io/csv.h"
@@ -64,7 +65,7 @@ void write_elements(const std::filesystem::path& path, const Simulation& run,
       if (mapped) {
         row.insert(row.end(), {static_cast<double>(w), of_test * e.force_sliding, of_test * e.shear_work,
                                of_test * e.normal_work, kMm * of_test * e.sliding,
-                               of_test * static_cast<double>(e.impacts), of_test * e.impact_energy,
+                               of_test * static_cast<double>(e.impacts.count), of_test * e.impacts.energy(),
                                kMPa * e.peak_pressure});
         const wear::MechanismVolumes v = map != nullptr ? run.mapped_volumes(w, t) : wear::MechanismVolumes{};
         for (const double law : v) row.push_back(kMm3 * law);
@@ -76,9 +77,11 @@ void write_elements(const std::filesystem::path& path, const Simulation& run,
 }
 
 void write_integrals(const std::filesystem::path& path, const Simulation& run) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   CsvWriter table(path,
                   {"wall", "abrader", "region", "element", "area_mm2", "force_sliding_J", "shear_work_J",
-                   "normal_work_J", "impacts", "impact_energy_J", "finnie_mm3", "oka_mm3"});
+                   "normal_work_J", "finnie_mm3", "oka_mm3", "impacts", "impact_energy_J", "impact_mass_kg",
+                   "angle_mean_deg", "speed_rms_m_per_s", "diameter_mean_mm"});
   const double of_test = run.acceleration();
   for (std::size_t w = 0; w < run.walls().size(); ++w) {
     if (run.map_of(w) == nullptr) continue;
@@ -87,11 +90,14 @@ void write_integrals(const std::filesystem::path& path, const Simulation& run) {
       for (std::size_t t = 0; t < layer.elements.size(); ++t) {
         const WearMap::Element& e = layer.elements[t];
         if (!e.touched()) continue;
+        const wear::Impact mean =
+            e.impacts.count > 0 ? e.impacts.mean() : wear::Impact{kNone, kNone, 0.0, kNone};
         table.row({static_cast<double>(w), static_cast<double>(layer.abrader),
                    static_cast<double>(map.region_of(t)), static_cast<double>(t),
                    kMm2 * place_of(run.walls()[w].surface(), t).area, of_test * e.force_sliding,
-                   of_test * e.shear_work, of_test * e.normal_work, of_test * static_cast<double>(e.impacts),
-                   of_test * e.impact_energy, kMm3 * e.finnie, kMm3 * e.oka});
+                   of_test * e.shear_work, of_test * e.normal_work, kMm3 * e.finnie, kMm3 * e.oka,
+                   of_test * static_cast<double>(e.impacts.count), of_test * e.impacts.energy(),
+                   of_test * mean.mass, kDegrees * mean.angle, mean.speed, kMm * mean.diameter});
       }
   }
   table.close();
@@ -129,7 +135,7 @@ void write_sliding(const std::filesystem::path& path, const Simulation& run) {
 
 void write_impact_classes(const std::filesystem::path& path, const Simulation& run) {
   CsvWriter table(path, {"wall", "abrader", "region", "angle_low_deg", "angle_high_deg", "speed_low_m_per_s",
-                         "speed_high_m_per_s", "impacts", "mass_kg", "angle_mean_deg", "speed_mean_m_per_s",
+                         "speed_high_m_per_s", "impacts", "mass_kg", "angle_mean_deg", "speed_rms_m_per_s",
                          "diameter_mean_mm"});
   const double of_test = run.acceleration();
   for_spectra(run, [&](double wall, double abrader, double region, const wear::Spectra& spectra) {
@@ -177,8 +183,8 @@ MapArrays map_arrays(const Simulation& run, std::size_t wall) {
     add("shear_work_J", [&](std::size_t t) { return of_test * e[t].shear_work; });
     add("normal_work_J", [&](std::size_t t) { return of_test * e[t].normal_work; });
     add("sliding_mm", [&](std::size_t t) { return of_test * kMm * e[t].sliding; });
-    add("impacts", [&](std::size_t t) { return of_test * static_cast<double>(e[t].impacts); });
-    add("impact_energy_J", [&](std::size_t t) { return of_test * e[t].impact_energy; });
+    add("impacts", [&](std::size_t t) { return of_test * static_cast<double>(e[t].impacts.count); });
+    add("impact_energy_J", [&](std::size_t t) { return of_test * e[t].impacts.energy(); });
     add("peak_pressure_MPa", [&](std::size_t t) { return kMPa * e[t].peak_pressure; });
     if (run.wears_by_laws(wall))
       for (std::size_t m = 0; m < kLawNames.size(); ++m)

@@ -214,7 +214,6 @@ class Simulation {
   void choose_time_step();
   [[nodiscard]] double choose_increment() const;
   void find_pair_properties();
-  [[nodiscard]] wear::Laws laws_of(const WearSetup& wear) const;
   void choose_accounts();
   void choose_maps();
   [[nodiscard]] MapLayer map_layer(std::size_t wall, int abrader) noexcept;

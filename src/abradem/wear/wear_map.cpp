@@ -17,7 +17,6 @@ WearMap::Element& WearMap::Element::operator+=(const Element& other) noexcept {
   sliding += other.sliding;
   finnie += other.finnie;
   oka += other.oka;
-  impact_energy += other.impact_energy;
   peak_pressure = std::max(peak_pressure, other.peak_pressure);
   impacts += other.impacts;
   return *this;
@@ -68,14 +67,8 @@ void WearMap::Booking::finish() {
   if (!s_.strikes) return;
   const Impact& impact = s_.impact;
   Element& e = layer_.elements[largest_];
-  ++e.impacts;
-  e.impact_energy += 0.5 * impact.mass * impact.speed * impact.speed;
-  ImpactSums& sums = spectra.impacts[Spectra::impact_key(impact)];
-  ++sums.count;
-  sums.mass += impact.mass;
-  sums.angle += impact.mass * impact.angle;
-  sums.speed += impact.mass * impact.speed;
-  sums.diameter += impact.mass * impact.diameter;
+  e.impacts.add(impact);
+  spectra.impacts[Spectra::impact_key(impact)].add(impact);
 }
 
 MechanismVolumes mapped_volumes(const Laws& laws, const WearMap::Element& e) noexcept {

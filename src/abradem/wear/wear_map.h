@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -78,21 +79,40 @@ struct SlidingSums {
   }
 };
 
-/// Impacts by their angle, speed and diameter; sums weighted by the mass.
+/// Impacts together. Angles and diameters are weighted by m v^2: many a small bounce does not hide a blow.
 struct ImpactSums {
   std::uint64_t count = 0;
   double mass = 0.0;      ///< [kg]
-  double angle = 0.0;     ///< sum of m a [kg rad]
-  double speed = 0.0;     ///< sum of m v [kg m/s]
-  double diameter = 0.0;  ///< sum of m D [kg m]
+  double mv2 = 0.0;       ///< sum of m v^2 [J]
+  double angle = 0.0;     ///< sum of m v^2 a [J rad]
+  double diameter = 0.0;  ///< sum of m v^2 D [J m]
 
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
-    archive("count", self.count)("mass", self.mass)("angle", self.angle);
-    archive("speed", self.speed)("diameter", self.diameter);
+    archive("count", self.count)("mass", self.mass)("mv2", self.mv2);
+    archive("angle", self.angle)("diameter", self.diameter);
   }
-  /// The impact that all of them together stand for.
-  [[nodiscard]] Impact mean() const noexcept { return {speed / mass, angle / mass, mass, diameter / mass}; }
+  void add(const Impact& impact) noexcept {
+    const double weight = impact.mass * impact.speed * impact.speed;
+    ++count;
+    mass += impact.mass;
+    mv2 += weight;
+    angle += weight * impact.angle;
+    diameter += weight * impact.diameter;
+  }
+  ImpactSums& operator+=(const ImpactSums& other) noexcept {
+    count += other.count;
+    mass += other.mass;
+    mv2 += other.mv2;
+    angle += other.angle;
+    diameter += other.diameter;
+    return *this;
+  }
+  [[nodiscard]] double energy() const noexcept { return 0.5 * mv2; }
+  /// The impact that all of them together stand for, of the same energy; there must be some.
+  [[nodiscard]] Impact mean() const noexcept {
+    return {std::sqrt(mv2 / mass), angle / mv2, mass, diameter / mv2};
+  }
 };
 
 /// Classes of angles: as those of ImpactSpectrum.
@@ -139,19 +159,20 @@ class WearMap {
     double normal_work = 0.0;        ///< lost to the normal damper [J]
     double sliding = 0.0;            ///< s [m]
     double finnie = 0.0, oka = 0.0;  ///< worn by these laws [m^3]
-    double impact_energy = 0.0;      ///< kinetic, of the impacts counted here [J]
     double peak_pressure = 0.0;      ///< largest of F_n share / min(area of the element, Hertz's circle) [Pa]
-    std::uint64_t impacts = 0;       ///< those whose largest share fell here
+    ImpactSums impacts;              ///< those whose largest share fell here
 
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
       archive("force_sliding", self.force_sliding)("shear_work", self.shear_work);
       archive("normal_work", self.normal_work)("sliding", self.sliding)("finnie", self.finnie);
-      archive("oka", self.oka)("impact_energy", self.impact_energy);
+      archive("oka", self.oka);
       archive("peak_pressure", self.peak_pressure)("impacts", self.impacts);
     }
     Element& operator+=(const Element& other) noexcept;
-    [[nodiscard]] bool touched() const noexcept { return peak_pressure > 0.0; }
+    [[nodiscard]] bool touched() const noexcept {
+      return peak_pressure > 0.0 || normal_work > 0.0 || sliding > 0.0;
+    }
   };
 
   /// What one material does to the wall.
