@@ -46,10 +46,13 @@ struct RunInputs {
   std::string resolved_case;
   std::vector<geometry::TriangleMesh> meshes;  ///< of the walls that have one, as they began
   std::vector<InsertionInputs> insertions;     ///< of each insertion
+  /// Tables of each motion of each wall.
+  std::vector<std::vector<std::vector<simulation::MotionRow>>> motions;
 
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
     archive("resolved_case", self.resolved_case)("meshes", self.meshes)("insertions", self.insertions);
+    archive("motions", self.motions);
   }
 };
 [[nodiscard]] RunInputs inputs_of(const simulation::Simulation& run, std::string resolved_case);

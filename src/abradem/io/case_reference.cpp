@@ -20,10 +20,13 @@ std::string cell(std::string_view text) {
 std::string heading(const Section& section) {
   if (section.path.empty()) return "Top of the file";
   std::string name(section.path);
-  if (section.naming == Naming::list) return fmt::format("`[[{}]]`", name.substr(0, name.rfind(".*")));
+  const bool list = section.naming == Naming::list;
+  if (list) name.resize(name.rfind(".*"));
   const std::size_t star = name.find('*');
   if (star != std::string::npos)
     name.replace(star, 1, section.naming == Naming::pair ? "\"NAME/NAME\"" : "NAME");
+  if (list) return fmt::format("`[[{}]]`", name);
+  if (section.naming == Naming::one_or_list) return fmt::format("`[{}]` or `[[{}]]`", name, name);
   return fmt::format("`[{}]`", name);
 }
 

@@ -73,10 +73,21 @@ const std::array kSections{
             .add = nothing,
             .enter = stay},
     Section{.path = "wall.*.motion",
-            .doc = "The rigid motion of the wall.",
-            .count = one,
-            .add = nothing,
-            .enter = stay},
+            .doc =
+                "The rigid motion of the wall. A list, `motion = [{ … }, { … }]`, makes motions that carry "
+                "each other: the wall moves as the first says, that whole as the second says, and so on.",
+            .naming = Naming::one_or_list,
+            .count = [](const Target& t) { return t.wall->motions(); },
+            .add = [](const Target& t) { t.wall->carried_by.emplace_back(); },
+            .enter = [](Target& t,
+                        std::size_t i) { t.motion = i == 0 ? &t.wall->motion : &t.wall->carried_by[i - 1]; }},
+    Section{.path = "wall.*.motion.rows.*",
+            .doc = "A row of a motion's table. Before the first row the wall stands there; between rows it "
+                   "moves at constant velocity and rate.",
+            .naming = Naming::list,
+            .count = [](const Target& t) { return t.motion->rows.size(); },
+            .add = [](const Target& t) { t.motion->rows.emplace_back(); },
+            .enter = [](Target& t, std::size_t i) { t.motion_row = &t.motion->rows[i]; }},
     Section{.path = "region.*",
             .doc =
                 "Part of a wall, for the spectra of its wear map: the elements whose unworn centres lie in "
