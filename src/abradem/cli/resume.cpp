@@ -87,6 +87,12 @@ Resumed put_back(const io::Checkpoint& checkpoint, const fs::path& folder,
     setup.insertions[i].size.radii = inputs.insertions[i].radii;
     setup.insertions[i].size.shares = inputs.insertions[i].shares;
   }
+  archive.require(inputs.shapes.size() == setup.shapes.size(), "comes after other shapes");
+  for (std::size_t i = 0; i < setup.shapes.size(); ++i) {
+    if (!setup.shapes[i].fit) continue;
+    setup.shapes[i].fit->fit = inputs.shapes[i].fit;
+    setup.shapes[i].fit->solid = inputs.shapes[i].solid;
+  }
   resumed.run = std::make_unique<Simulation>(setup, next_mesh);
   resumed.run->load(archive);
   archive.require(archive.at_end(), "should be the last");

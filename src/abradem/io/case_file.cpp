@@ -275,6 +275,8 @@ simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems&
     made_absolute(insertion.size.file);
     made_absolute(insertion.volume.file);
   }
+  for (simulation::ShapeSetup& shape : setup.shapes)
+    if (shape.fit) made_absolute(shape.fit->file);
   if (setup.study) made_absolute(setup.study->published);
   // The default of one frame per revolution has no meaning where nothing turns.
   constexpr double kFrames = 10.0;

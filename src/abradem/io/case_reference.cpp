@@ -20,11 +20,12 @@ std::string cell(std::string_view text) {
 std::string heading(const Section& section) {
   if (section.path.empty()) return "Top of the file";
   std::string name(section.path);
-  if (section.naming == Naming::list) return fmt::format("`[[{}]]`", name.substr(0, name.rfind(".*")));
+  const bool list = section.naming == Naming::list;
+  if (list) name.resize(name.rfind(".*"));
   const std::size_t star = name.find('*');
   if (star != std::string::npos)
     name.replace(star, 1, section.naming == Naming::pair ? "\"NAME/NAME\"" : "NAME");
-  return fmt::format("`[{}]`", name);
+  return list ? fmt::format("`[[{}]]`", name) : fmt::format("`[{}]`", name);
 }
 
 std::string value_cell(const Row& row) {
@@ -111,7 +112,9 @@ std::string case_reference_markdown() {
       "dimensionless. Every component of a vector may carry its own unit. Names with `/` or `.` are "
       "quoted.\n";
   for (const Section& section : case_sections()) {
-    out += fmt::format("\n## {}\n\n{} {}\n\n", heading(section), section.doc, presence(section));
+    out += fmt::format("\n## {}\n\n{} {}\n", heading(section), section.doc, presence(section));
+    if (rows_of(section).empty()) continue;
+    out += "\n";
     out += "| Key | Value | Default | Allowed | Meaning | Example |\n|---|---|---|---|---|---|\n";
     for (const Row* row : rows_of(section)) {
       const std::string also = row->also.empty() ? "" : fmt::format(" (or `{}`)", row->also);
