@@ -55,7 +55,7 @@ struct Section {
 
   /// What an arc of the border adds (Green's theorem, counter-clockwise).
   void add_arc(const Disc& d, double from, double to) noexcept {
-    const int pieces = static_cast<int>(std::ceil((to - from) / (0.5 * std::numbers::pi)));
+    const int pieces = static_cast<int>(std::ceil((to - from) / (0.25 * std::numbers::pi)));
     for (int k = 0; k < pieces; ++k)
       gauss(from + (to - from) * k / pieces, from + (to - from) * (k + 1) / pieces, [&](double t, double w) {
         const double c = std::cos(t), s = std::sin(t);

@@ -39,7 +39,7 @@ struct MassProperties {
 
 /// Of the union of balls, overlaps counted once. Sections across z are unions of discs, whose moments are
 /// integrals along their outer arcs (Green); between the balls' ends z is integrated by Gauss's rule in
-/// panels of at most 1/`panels` of the height. Error with 64: below 1e-6 of the volume.
+/// panels of at most 1/`panels` of the height. Error with 64: some 1e-6.
 /// O(panels * balls^2).
 [[nodiscard]] MassProperties mass_properties(std::span<const Ball> balls, int panels = 64);
 

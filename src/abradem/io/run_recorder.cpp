@@ -200,10 +200,11 @@ void RunRecorder::write_spheres(const std::filesystem::path& path) const {
       id.push_back(spheres.id[i]);
       if (run_.bulk()->clumps().shapes().empty()) continue;
       const std::int32_t number = spheres.clump.empty() ? -1 : spheres.clump[i];
-      const simulation::Clump none{.id = -1},
-          &c = number < 0 ? none : run_.bulk()->clumps().clumps()[static_cast<std::size_t>(number)];
-      clump.push_back(c.id);
-      turn.insert(turn.end(), {c.turn.w, c.turn.x, c.turn.y, c.turn.z});
+      const simulation::Clump* c =
+          number < 0 ? nullptr : &run_.bulk()->clumps().clumps()[static_cast<std::size_t>(number)];
+      const geometry::Quaternion q = c != nullptr ? c->turn : geometry::Quaternion{};
+      clump.push_back(c != nullptr ? c->id : -1.0);
+      turn.insert(turn.end(), {q.w, q.x, q.y, q.z});
     }
   }
   for (const Vec3& v : velocity) speeds.insert(speeds.end(), {v.x, v.y, v.z});
