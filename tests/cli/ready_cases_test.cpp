@@ -52,7 +52,8 @@ INSTANTIATE_TEST_SUITE_P(
         ReadyCase{"rotating-drum",
                   "--set insertion.charge.number=60 --set run.end='0.07 rev' --set output.every='0.01 rev'",
                   true},
-        ReadyCase{"angle-of-repose", "--set run.end='0.12 s' --set output.every='20 ms'"}));
+        ReadyCase{"angle-of-repose", "--set run.end='0.12 s' --set output.every='20 ms'"},
+        ReadyCase{"pebbles", "--set run.end='0.1 s' --set output.every='20 ms'"}));
 
 /// Every grain strikes once, what the laws take leaves the mesh, and the report draws it.
 TEST(ImpactPlate, RunsToItsEnd) {

@@ -21,7 +21,8 @@ inline simulation::Setup checkpoint_case() {
   return setup;
 }
 
-/// The same for particles in numbers: on a mesh and beside a plane, under a named one, and clumps that come in.
+/// The same for particles in numbers: on a mesh and beside a plane, under a named one, and clumps that come
+/// in.
 inline simulation::Setup grains_checkpoint_case() {
   simulation::Setup setup = checkpoint_case();
   setup.contacts.push_back({"iron_ore", "iron_ore", 0.5, 0.4, 0.02});

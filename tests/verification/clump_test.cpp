@@ -26,7 +26,9 @@ ShapeSetup row_of_spheres(int count, double radius = R) {
 ShapeSetup rough_grain() {
   ShapeSetup shape;
   shape.name = "grain";
-  shape.spheres = {{{0, 0, 0}, 2e-3}, {{2e-3, 0, 0}, 1.6e-3}, {{0.6e-3, 1.5e-3, 0.2e-3}, 1.4e-3},
+  shape.spheres = {{{0, 0, 0}, 2e-3},
+                   {{2e-3, 0, 0}, 1.6e-3},
+                   {{0.6e-3, 1.5e-3, 0.2e-3}, 1.4e-3},
                    {{0.5e-3, 0.3e-3, 1.8e-3}, 1.2e-3}};
   return shape;
 }
@@ -142,8 +144,8 @@ TEST(Clumps, FreeFlightKeepsAngularMomentum) {
 }
 
 /// A dumbbell that falls flat-footed on a smooth plane: one impulse J = (1 + e') m' v along the normal, with
-/// 1/m' = 1/M + l^2/I for its lever l. The damper is made for the whole mass, so that the restitution it gives
-/// is that of beta' = beta sqrt(M/m').
+/// 1/m' = 1/M + l^2/I for its lever l. The damper is made for the whole mass, so that the restitution it
+/// gives is that of beta' = beta sqrt(M/m').
 TEST(Clumps, ADumbbellBouncesAsTheImpulseSays) {
   double worst = 0.0;
   for (const double e : {1.0, 0.7, 0.4})
@@ -216,8 +218,8 @@ TEST(Clumps, AGasOfDumbbellsSharesItsEnergy) {
   EXPECT_LT(norm(momentum_of() - p) / scale, 1e-12);
   const double error = std::abs(end.kinetic_energy + end.elastic_energy - energy) / energy;
   EXPECT_LT(error, 1e-3);
-  // Of 5 N degrees of freedom 2 N turn: their share scatters by sqrt(2 * 0.4 * 0.6 / (5 N)) = 1.7 % at any one
-  // time, and by less than half of that over some tens of impacts of each.
+  // Of 5 N degrees of freedom 2 N turn: their share scatters by sqrt(2 * 0.4 * 0.6 / (5 N)) = 1.7 % at any
+  // one time, and by less than half of that over some tens of impacts of each.
   EXPECT_NEAR(share / samples, 0.4, 0.012);
   RecordProperty("energy_error", std::to_string(error));
   RecordProperty("share", std::to_string(share / samples));
@@ -227,7 +229,8 @@ TEST(Clumps, AGasOfDumbbellsSharesItsEnergy) {
   std::set<std::pair<int, int>> listed;
   for (std::size_t k = 0; k < list.pairs(); ++k) {
     EXPECT_TRUE(listed.emplace(list.owner[k], list.partner[k]).second);
-    EXPECT_NE(s.clump[static_cast<std::size_t>(list.owner[k])], s.clump[static_cast<std::size_t>(list.partner[k])]);
+    EXPECT_NE(s.clump[static_cast<std::size_t>(list.owner[k])],
+              s.clump[static_cast<std::size_t>(list.partner[k])]);
   }
   const auto near = [](double d) { return d - kSide * std::round(d / kSide); };
   std::size_t touching = 0;
@@ -272,8 +275,8 @@ TEST(Clumps, ABedComesToRestOnTheFloor) {
   EXPECT_LT(end.kinetic_energy, 1e-6 * end.mass * 9.81 * 0.03);
   const double ratio = force / samples / (end.mass * 9.81);
   EXPECT_NEAR(ratio, 1.0, 0.01);
-  const double fraction = fraction_within(run.bulk()->spheres(), {3e-3, 3e-3, 8e-3},
-                                          {kSide - 3e-3, kSide - 3e-3, 18e-3}, 0.3e-3);
+  const double fraction =
+      fraction_within(run.bulk()->spheres(), {3e-3, 3e-3, 8e-3}, {kSide - 3e-3, kSide - 3e-3, 18e-3}, 0.3e-3);
   EXPECT_GT(fraction, 0.55);  // loose spheres with friction: 0.58 to 0.60
   EXPECT_LT(fraction, 0.70);
   RecordProperty("weight", std::to_string(ratio));

@@ -87,8 +87,8 @@ bool covered_parts(const std::vector<Disc>& discs, std::size_t i,
       if (!same || j < i) return false;
       continue;
     }
-    const double cosine = (own.radius * own.radius + d * d - other.radius * other.radius) /
-                          (2.0 * d * own.radius);
+    const double cosine =
+        (own.radius * own.radius + d * d - other.radius * other.radius) / (2.0 * d * own.radius);
     const double half = std::acos(std::clamp(cosine, -1.0, 1.0));
     double from = std::atan2(dy, dx) - half;
     if (from < 0.0) from += kTurn;

@@ -41,7 +41,9 @@ class InnerDistance {
     const BoundingBox box = bounding_box(mesh.vertices);
     const Vec3 e = box.high - box.low;
     cell_ = std::max({e.x, e.y, e.z}) / kCells;
-    const auto cells = [&](double length) { return static_cast<std::int32_t>(std::ceil(length / cell_)) + 2; };
+    const auto cells = [&](double length) {
+      return static_cast<std::int32_t>(std::ceil(length / cell_)) + 2;
+    };
     count_ = {cells(e.x), cells(e.y), cells(e.z)};
     // Off the lattice that the mesh's own vertices may lie on.
     low_ = box.low - cell_ * Vec3{0.8819660, 0.8541020, 0.8284271};

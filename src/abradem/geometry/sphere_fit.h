@@ -12,8 +12,8 @@ struct SphereFit {
   std::vector<Ball> balls;
   double growth = 0.0;        ///< by which the inscribed balls were all made larger [m]
   double volume_error = 0.0;  ///< of the union's volume, relative to the solid's [-]
-  double deepest = 0.0;       ///< largest distance from the solid's surface to the union, where it is bare [m]
-  double furthest = 0.0;      ///< largest distance that a ball reaches out of the solid [m]
+  double deepest = 0.0;   ///< largest distance from the solid's surface to the union, where it is bare [m]
+  double furthest = 0.0;  ///< largest distance that a ball reaches out of the solid [m]
   bool operator==(const SphereFit&) const = default;
 
   template <typename Self, typename Archive>

@@ -60,16 +60,9 @@ Target target_with_defaults() {
     s.study->variations.emplace_back();
     return s;
   }();
-  return {&setup,
-          &setup.materials[0],
-          &setup.contacts[0],
-          &setup.wear[0],
-          &setup.walls[0],
-          &setup.particles[0],
-          &setup.insertions[0],
-          &setup.study->variations[0],
-          &setup.shapes[0],
-          &setup.shapes[0].spheres[0]};
+  return {&setup,           &setup.materials[0],        &setup.contacts[0],   &setup.wear[0],
+          &setup.walls[0],  &setup.particles[0],        &setup.insertions[0], &setup.study->variations[0],
+          &setup.shapes[0], &setup.shapes[0].spheres[0]};
 }
 
 /// { "wall.disc.mesh.size" = ["0.1 mm", "0.2 mm"] }

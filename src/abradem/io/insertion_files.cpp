@@ -34,15 +34,15 @@ void fit_shape(const std::string& name, ShapeFitSetup& fit) {
   geometry::repair_mesh(mesh);
   const geometry::MeshReport report = geometry::check_mesh(mesh);
   if (!report.closed)
-    throw GeometryError(
-        fmt::format("shape '{}': the mesh '{}' is not closed ({} open edges, {} with more than two triangles, {} "
-                    "between opposite sides): it bounds no solid; `abradem check {}` says more",
-                    name, fit.file, report.open_edges, report.non_manifold_edges, report.inconsistent_edges,
-                    fit.file));
+    throw GeometryError(fmt::format(
+        "shape '{}': the mesh '{}' is not closed ({} open edges, {} with more than two triangles, {} "
+        "between opposite sides): it bounds no solid; `abradem check {}` says more",
+        name, fit.file, report.open_edges, report.non_manifold_edges, report.inconsistent_edges, fit.file));
   if (report.components > 1 || !(report.volume > 0.0))
-    throw GeometryError(fmt::format("shape '{}': the mesh '{}' is not one solid: it has {} parts that enclose "
-                                    "{:.4g} mm^3 together",
-                                    name, fit.file, report.components, 1e9 * report.volume));
+    throw GeometryError(
+        fmt::format("shape '{}': the mesh '{}' is not one solid: it has {} parts that enclose "
+                    "{:.4g} mm^3 together",
+                    name, fit.file, report.components, 1e9 * report.volume));
   try {
     fit.fit = geometry::fit_spheres(mesh, fit.count);
   } catch (const GeometryError& e) {

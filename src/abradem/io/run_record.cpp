@@ -144,9 +144,11 @@ std::string shape_text(const simulation::ShapeSetup& shape) {
                        1e9 * volume, 1e3 * R);
   const geometry::SphereFit& fit = shape.fit->fit;
   return fmt::format(
-      "{} spheres for a solid of {:.4g} mm^3, as a sphere of {:.4g} mm radius; their union's volume differs by "
+      "{} spheres for a solid of {:.4g} mm^3, as a sphere of {:.4g} mm radius; their union's volume differs "
+      "by "
       "{:.2g} %, they leave the surface bare by at most {:.3g} mm and reach out of it by {:.3g} mm",
-      fit.balls.size(), 1e9 * volume, 1e3 * R, 100.0 * fit.volume_error, 1e3 * fit.deepest, 1e3 * fit.furthest);
+      fit.balls.size(), 1e9 * volume, 1e3 * R, 100.0 * fit.volume_error, 1e3 * fit.deepest,
+      1e3 * fit.furthest);
 }
 
 std::uint64_t inputs_hash(const simulation::Setup& setup) {

@@ -97,8 +97,8 @@ void Bulk::take_in(double time) {
   for (Inserter& inserter : inserters_) {
     if (!inserter.wants(time)) continue;
     if (const ClumpShape* shape = inserter.shape()) {
-      const auto number = std::ranges::find(clumps_.shapes(), shape->name, &ClumpShape::name) -
-                          clumps_.shapes().begin();
+      const auto number =
+          std::ranges::find(clumps_.shapes(), shape->name, &ClumpShape::name) - clumps_.shapes().begin();
       for (Clumps::Birth& birth : inserter.insert_clumps(time, spheres_, period_)) {
         birth.shape = static_cast<std::int32_t>(number);
         clumps_.add(birth, spheres_, next_id_);

@@ -90,7 +90,8 @@ struct Bodies {
   std::vector<std::size_t> of;
   std::vector<double> response;
 
-  Bodies(const contact::Spheres& spheres, const Clumps& clumps) : of(spheres.size()), response(spheres.size()) {
+  Bodies(const contact::Spheres& spheres, const Clumps& clumps)
+      : of(spheres.size()), response(spheres.size()) {
     std::vector<std::size_t> first(clumps.size(), spheres.size());
     for (std::size_t i = 0; i < spheres.size(); ++i) {
       const std::int32_t c = spheres.clump.empty() ? -1 : spheres.clump[i];

@@ -153,11 +153,14 @@ bool Clumps::locate(const contact::Spheres& spheres, const Vec3& period) {
   if (std::ranges::find(member_, -1) != member_.end()) return false;
   image_.assign(member_.size(), {});
   if (period == Vec3{}) return true;
-  const auto whole = [](double d, double length) { return length > 0.0 ? length * std::round(d / length) : 0.0; };
+  const auto whole = [](double d, double length) {
+    return length > 0.0 ? length * std::round(d / length) : 0.0;
+  };
   for (std::size_t c = 0; c < clumps_.size(); ++c)
     for (std::size_t k = start_[c]; k < start_[c + 1]; ++k) {
-      const Vec3 own = clumps_[c].position + clumps_[c].turn.turn(clumps_[c].radius *
-                                                                  shape_of(clumps_[c]).spheres[k - start_[c]].centre);
+      const Vec3 own =
+          clumps_[c].position +
+          clumps_[c].turn.turn(clumps_[c].radius * shape_of(clumps_[c]).spheres[k - start_[c]].centre);
       const Vec3 d = spheres.row[at(member_[k])].position() - own;
       image_[k] = {whole(d.x, period.x), whole(d.y, period.y), whole(d.z, period.z)};
     }

@@ -18,9 +18,9 @@ namespace abradem::simulation {
 struct ClumpShape {
   std::string name;
   std::vector<geometry::Ball> spheres;
-  Vec3 inertia;         ///< principal moments over density times that radius to the fifth [-]
-  double radius = 0.0;  ///< of the sphere of equal volume, as the shape was given [m]
-  double bounding = 0.0;                 ///< radius about the centre that holds all spheres [-]
+  Vec3 inertia;           ///< principal moments over density times that radius to the fifth [-]
+  double radius = 0.0;    ///< of the sphere of equal volume, as the shape was given [m]
+  double bounding = 0.0;  ///< radius about the centre that holds all spheres [-]
   double smallest = 0.0, largest = 0.0;  ///< radius of a sphere [-]
 };
 /// @throws InputError for a shape without spheres, or with one of no size
@@ -39,14 +39,14 @@ struct Clump {
   std::int32_t shape = 0;         ///< number of the shape
   std::int32_t first_sphere = 0;  ///< id of its first sphere; the others follow
   std::int32_t material = 0;
-  double radius = 0.0;     ///< of the sphere of equal volume [m]
-  double mass = 0.0;       ///< [kg]
-  Vec3 inertia;            ///< principal moments [kg m^2]
-  Vec3 position;           ///< of the centre of mass [m]
-  Vec3 velocity;           ///< [m/s]
-  Vec3 momentum;           ///< angular, about the centre, in the world [kg m^2/s]
+  double radius = 0.0;        ///< of the sphere of equal volume [m]
+  double mass = 0.0;          ///< [kg]
+  Vec3 inertia;               ///< principal moments [kg m^2]
+  Vec3 position;              ///< of the centre of mass [m]
+  Vec3 velocity;              ///< [m/s]
+  Vec3 momentum;              ///< angular, about the centre, in the world [kg m^2/s]
   geometry::Quaternion turn;  ///< from the principal axes to the world
-  Vec3 force, torque;      ///< of the contacts, at the last step [N], [N m]
+  Vec3 force, torque;         ///< of the contacts, at the last step [N], [N m]
 
   /// Angular velocity [rad/s].
   [[nodiscard]] Vec3 spin() const noexcept {

@@ -307,7 +307,8 @@ std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Sphere
 
 void Inserter::refuse_full_volume() const {
   throw InputError(fmt::format(
-      "insertion '{}': its volume is full after {} of the {} particles to be placed there ({:.3g} kg, {:.1f} % "
+      "insertion '{}': its volume is full after {} of the {} particles to be placed there ({:.3g} kg, {:.1f} "
+      "% "
       "of the volume; at random, without overlaps, {} can be reached). Enlarge the volume, lower the number, "
       "or insert at a mass_rate",
       setup_.name, inserted_,

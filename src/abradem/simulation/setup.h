@@ -186,10 +186,10 @@ struct PlacedSphere {
 
 /// Spheres in the place of the solid in a closed mesh file. What the file says is filled in by its reader.
 struct ShapeFitSetup {
-  std::string file;         ///< absolute, or relative to the case file's folder
-  double unit = 1.0;        ///< metres per unit of length in the file
-  int count = 12;           ///< at most so many spheres
-  geometry::SphereFit fit;  ///< as read
+  std::string file;                ///< absolute, or relative to the case file's folder
+  double unit = 1.0;               ///< metres per unit of length in the file
+  int count = 12;                  ///< at most so many spheres
+  geometry::SphereFit fit;         ///< as read
   geometry::MassProperties solid;  ///< of the mesh itself, as read
   bool operator==(const ShapeFitSetup&) const = default;
 };

@@ -377,10 +377,10 @@ void Simulation::choose_time_step() {
           shortest, material::rayleigh_time(materials_[static_cast<std::size_t>(particles_.material[p])],
                                             particles_.radius[p]));
     for (std::size_t k = 0; k < setup_.insertions.size(); ++k) {
-      const auto m = static_cast<std::size_t>(
-          index_of(setup_.materials, setup_.insertions[k].material, "material"));
-      shortest = std::min(
-          shortest, material::rayleigh_time(materials_[m], bulk_->inserters()[k].smallest_sphere()));
+      const auto m =
+          static_cast<std::size_t>(index_of(setup_.materials, setup_.insertions[k].material, "material"));
+      shortest =
+          std::min(shortest, material::rayleigh_time(materials_[m], bulk_->inserters()[k].smallest_sphere()));
     }
     wanted *= shortest;
   }

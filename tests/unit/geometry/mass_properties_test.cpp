@@ -20,7 +20,8 @@ constexpr double pi = std::numbers::pi;
 TriangleMesh box(const Vec3& h, const Vec3& at) {
   TriangleMesh mesh;
   for (int k = 0; k < 8; ++k)
-    mesh.vertices.push_back(at + Vec3{(k & 1 ? 1 : -1) * h.x, (k & 2 ? 1 : -1) * h.y, (k & 4 ? 1 : -1) * h.z});
+    mesh.vertices.push_back(at +
+                            Vec3{(k & 1 ? 1 : -1) * h.x, (k & 2 ? 1 : -1) * h.y, (k & 4 ? 1 : -1) * h.z});
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return mesh;
@@ -53,7 +54,8 @@ TEST(MassProperties, OfOneBallAndOfBallsApartAreThoseOfSpheres) {
 
 TEST(MassProperties, CountOverlapsOnce) {
   // Two equal balls: both less their lens, V = pi (4 R + d) (2 R - d)^2 / 12; along any direction the same.
-  const double R = 1.5, d = 2.0, volume = 8.0 / 3.0 * pi * R * R * R - pi * (4 * R + d) * (2 * R - d) * (2 * R - d) / 12.0;
+  const double R = 1.5, d = 2.0,
+               volume = 8.0 / 3.0 * pi * R * R * R - pi * (4 * R + d) * (2 * R - d) * (2 * R - d) / 12.0;
   double worst = 0.0;
   for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{0.48, 0.6, 0.64}}) {
     const std::vector<Ball> balls{{-0.5 * d * axis, R}, {0.5 * d * axis, R}};
@@ -95,8 +97,8 @@ TEST(MassProperties, OfManyBallsConverge) {
   int at = 0;
   for (const int panels : {8, 64}) {
     const MassProperties b = mass_properties(balls, panels);
-    error[at] = std::max(std::abs(b.volume / fine.volume - 1.0),
-                         norm(b.moments - fine.moments) / norm(fine.moments));
+    error[at] =
+        std::max(std::abs(b.volume / fine.volume - 1.0), norm(b.moments - fine.moments) / norm(fine.moments));
     RecordProperty("error_" + std::to_string(panels), std::to_string(1e9 * error[at]) + "e-9");
     ++at;
   }
@@ -130,8 +132,8 @@ TEST(Quaternion, TurnsAsItsAxesSay) {
   }
 }
 
-/// Uniform over all rotations: images of the axes have mean 0 and <n n> = 1/3, and the trace of the matrix its
-/// moments under the Haar measure, 0 and 1.
+/// Uniform over all rotations: images of the axes have mean 0 and <n n> = 1/3, and the trace of the matrix
+/// its moments under the Haar measure, 0 and 1.
 TEST(Quaternion, RandomOnesAreUniform) {
   core::RandomStream random(8);
   constexpr int n = 40000;
@@ -146,7 +148,8 @@ TEST(Quaternion, RandomOnesAreUniform) {
     const double t = q.turn({1, 0, 0}).x + q.turn({0, 1, 0}).y + z.z;
     trace += t / n, trace2 += t * t / n;
   }
-  // Standard errors: 0.58 / 200, 0.30 / 200, 1 / 200, sqrt(<t^4> - 1) / 200 = sqrt(2) / 200; four are allowed.
+  // Standard errors: 0.58 / 200, 0.30 / 200, 1 / 200, sqrt(<t^4> - 1) / 200 = sqrt(2) / 200; four are
+  // allowed.
   expect_near(mean, {}, 0.012);
   expect_near(squares, {1.0 / 3, 1.0 / 3, 1.0 / 3}, 0.006);
   EXPECT_NEAR(trace, 0.0, 0.02);
@@ -159,7 +162,9 @@ TEST(SphereFit, OfAnEllipsoidComesNearerWithMoreSpheres) {
   for (int level = 0; level < 3; ++level) {
     TriangleMesh finer;
     for (const Triangle& t : mesh.triangles) {
-      const auto v = [&](int k) { return mesh.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])]; };
+      const auto v = [&](int k) {
+        return mesh.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+      };
       const Vec3 p[6]{v(0), v(1), v(2), 0.5 * (v(0) + v(1)), 0.5 * (v(1) + v(2)), 0.5 * (v(2) + v(0))};
       const auto first = static_cast<Index>(finer.vertices.size());
       finer.vertices.insert(finer.vertices.end(), std::begin(p), std::end(p));

@@ -204,7 +204,8 @@ TEST(ShapeCase, IsReadAndWrittenBack) {
   const simulation::Setup setup = read(std::string(kHead) + kPair + kPebbles, "/somewhere");
   ASSERT_EQ(setup.shapes.size(), 2u);
   EXPECT_EQ(setup.shapes[0].name, "pebble");
-  EXPECT_EQ(setup.shapes[0].spheres, (std::vector<geometry::Ball>{{{0, 0, 0}, 2e-3}, {{2e-3, 0, 0}, 1.5e-3}}));
+  EXPECT_EQ(setup.shapes[0].spheres,
+            (std::vector<geometry::Ball>{{{0, 0, 0}, 2e-3}, {{2e-3, 0, 0}, 1.5e-3}}));
   EXPECT_EQ(setup.shapes[1].fit->file, "/somewhere/stone.stl");
   EXPECT_EQ(setup.shapes[1].fit->unit, 1e-3);
   EXPECT_EQ(setup.shapes[1].fit->count, 8);

@@ -82,9 +82,8 @@ TEST(BulkState, GoesOnToTheSameBits) {
 /// What comes in at a rate is clumps, most of those at the start are spheres; some of both leave.
 simulation::Setup clumps_on_a_shaking_plate() {
   simulation::Setup setup = feed_on_a_shaking_plate(ContactRule::resolved);
-  setup.shapes = {{"grain",
-                   {{{0, 0, 0}, 1e-3}, {{1e-3, 0, 0}, 0.7e-3}, {{0.2e-3, 0.9e-3, 0.3e-3}, 0.8e-3}},
-                   {}}};
+  setup.shapes = {
+      {"grain", {{{0, 0, 0}, 1e-3}, {{1e-3, 0, 0}, 0.7e-3}, {{0.2e-3, 0.9e-3, 0.3e-3}, 0.8e-3}}, {}}};
   setup.insertions[0].number = 60;
   setup.insertions[1].shape = "grain";
   return setup;
