@@ -427,7 +427,12 @@ Advance advance_spheres(std::span<SphereRow> spheres, std::span<const LoadRow> l
     met[b] = advance_block(spheres.data() + begin, load.data() + begin, count, gravity, dt);
   });
   Advance all;
-  for (const Advance& m : met) all.include(m);
+  for (const Advance& m : met) {
+    all.fastest2 = std::max(all.fastest2, m.fastest2);
+    all.longest = std::max(all.longest, m.longest);
+    all.stability = std::max(all.stability, m.stability);
+    all.finite = all.finite && m.finite;
+  }
   return all;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <span>
 
 #include "abradem/contact/contact_chunk.h"
@@ -21,14 +20,6 @@ struct Advance {
   double longest = 0.0;    ///< largest way in this step, relative to the radius
   double stability = 0.0;  ///< largest 2 g + W (docs/theory/time-step.md)
   bool finite = true;
-
-  /// Of both.
-  void include(const Advance& o) noexcept {
-    fastest2 = std::max(fastest2, o.fastest2);
-    longest = std::max(longest, o.longest);
-    stability = std::max(stability, o.stability);
-    finite = finite && o.finite;
-  }
 };
 
 /// Symplectic Euler: the loads and gravity change the velocities, the new velocities the positions.

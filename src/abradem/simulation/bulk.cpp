@@ -226,7 +226,7 @@ void Bulk::compute_forces(const Surroundings& around, Particles& named) {
 void Bulk::integrate(const Surroundings& around) {
   if (!clumps_.empty()) clumps_.take_loads(load_);
   met_ = contact::advance_spheres(spheres_.row, load_, around.gravity, around.dt);
-  if (!clumps_.empty()) met_.include(clumps_.advance(spheres_, load_, around.gravity, around.dt));
+  if (!clumps_.empty()) clumps_.advance(spheres_, load_, around.gravity, around.dt, met_);
   const double fastest = std::sqrt(met_.fastest2);
   fastest_ = std::max(fastest_, fastest);
   travelled_ += fastest * around.dt;

@@ -208,11 +208,12 @@ void Clumps::place(const Clump& c, std::size_t n, contact::Spheres& spheres) con
   }
 }
 
-contact::Advance Clumps::advance(contact::Spheres& spheres, const std::vector<contact::LoadRow>& load,
-                                 const Vec3& gravity, double dt) {
+void Clumps::advance(contact::Spheres& spheres, const std::vector<contact::LoadRow>& load,
+                     const Vec3& gravity, double dt, contact::Advance& met) {
   constexpr std::size_t kBlock = 256;
-  std::vector<contact::Advance> met((clumps_.size() + kBlock - 1) / kBlock);
-  core::parallel_blocks(met.size(), [&](std::size_t b) {
+  std::vector<contact::Advance> of_block((clumps_.size() + kBlock - 1) / kBlock);
+  core::parallel_blocks(of_block.size(), [&](std::size_t b) {
+    contact::Advance& own = of_block[b];
     for (std::size_t n = b * kBlock; n < std::min(clumps_.size(), (b + 1) * kBlock); ++n) {
       Clump& c = clumps_[n];
       c.velocity += c.force * (dt / c.mass) + gravity * dt;
@@ -224,17 +225,20 @@ contact::Advance Clumps::advance(contact::Spheres& spheres, const std::vector<co
       for (std::size_t k = start_[n]; k < start_[n + 1]; ++k) {
         const contact::SphereRow& s = spheres.row[at(member_[k])];
         const double v2 = norm2(s.velocity());
-        met[b].finite = met[b].finite && v2 < 1e300;
-        met[b].fastest2 = std::max(met[b].fastest2, v2);
-        met[b].longest = std::max(met[b].longest, dt * std::sqrt(v2) / s.radius);
+        own.finite = own.finite && v2 < 1e300;
+        own.fastest2 = std::max(own.fastest2, v2);
+        own.longest = std::max(own.longest, dt * std::sqrt(v2) / s.radius);
         stiffening += load[at(member_[k])].stiffening;
       }
-      if (stiffening > 0.0) met[b].stability = std::max(met[b].stability, stiffening * response(c));
+      if (stiffening > 0.0) own.stability = std::max(own.stability, stiffening * response(c));
     }
   });
-  contact::Advance all;
-  for (const contact::Advance& m : met) all.include(m);
-  return all;
+  for (const contact::Advance& own : of_block) {
+    met.fastest2 = std::max(met.fastest2, own.fastest2);
+    met.longest = std::max(met.longest, own.longest);
+    met.stability = std::max(met.stability, own.stability);
+    met.finite = met.finite && own.finite;
+  }
 }
 
 bool Clumps::sound(const Clump& c) const noexcept {

@@ -103,9 +103,9 @@ class Clumps {
   /// it from their rows (the stiffening stays). Forces are those at the present positions.
   void take_loads(std::vector<contact::LoadRow>& load);
   /// Forces, gravity and torques change the momenta; the new momenta move and turn the clumps; their spheres
-  /// follow, with velocities v + w x r.
-  [[nodiscard]] contact::Advance advance(contact::Spheres& spheres, const std::vector<contact::LoadRow>& load,
-                                         const Vec3& gravity, double dt);
+  /// follow, with velocities v + w x r. What is met is added to `met`.
+  void advance(contact::Spheres& spheres, const std::vector<contact::LoadRow>& load, const Vec3& gravity,
+               double dt, contact::Advance& met);
 
   /// By how much a force of 1 N along any line through the centre of one of a clump's spheres speeds it up
   /// there, at most [1/kg].
