@@ -36,8 +36,8 @@ struct Quaternion {
   return {q.w * per_length, q.x * per_length, q.y * per_length, q.z * per_length};
 }
 
-/// The rotation that takes the axes x, y, z to three orthonormal, right-handed ones.
-[[nodiscard]] Quaternion quaternion_of(const Vec3& x, const Vec3& y, const Vec3& z) noexcept;
+/// The rotation that takes the axes x, y, z to a, b, c, which are orthonormal and right-handed.
+[[nodiscard]] Quaternion quaternion_of(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
 
 /// Uniform over all rotations, of three numbers that are uniform in [0, 1) [Shoemake 1992, Graphics Gems III,
 /// p. 124].

@@ -122,7 +122,7 @@ class Clumps {
  private:
   [[nodiscard]] bool locate(const contact::Spheres& spheres, const Vec3& period);
   [[nodiscard]] bool sound(const Clump& c) const noexcept;
-  void place(const Clump& c, std::size_t first, contact::Spheres& spheres) const noexcept;
+  void place(const Clump& c, std::size_t n, contact::Spheres& spheres) const noexcept;
 
   std::vector<ClumpShape> shapes_;
   std::vector<Clump> clumps_;
