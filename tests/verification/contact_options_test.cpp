@@ -140,6 +140,7 @@ TEST(Jkr, PullsOffAtThreeHalvesPiWR) {
     o.set_constants(0, constants);
     c.nz[0] = 1.0, c.overlap[0] = overlap, c.R_eff[0] = R, c.m_eff[0] = m;
     o.a_c[0] = contact::snapping_radius(constants, R);
+    o.held[0] = 1.0;
     for (std::size_t k = 1; k < 8; ++k) c.copy(0, k), o.copy(0, k);
     contact::full_law_loop(c, o, 8, 1e-6);
     return c.F_n[0];

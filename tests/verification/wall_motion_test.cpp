@@ -140,5 +140,135 @@ TEST(WallLoads, TorqueOfADrumBalancesTheBall) {
   EXPECT_NEAR(given / momentum(), 1.0, 1e-3);
 }
 
+MotionSetup turning(const Vec3& axis, double rate) {
+  MotionSetup m;
+  m.kind = MotionKind::rotation;
+  m.axis = axis;
+  m.rate = rate;
+  return m;
+}
+
+/// Where a ball that is taken along by a plate goes; the plate as one motion or as several that are the same.
+Vec3 taken_along(const std::vector<MotionSetup>& motions, bool in_numbers) {
+  simulation::Setup setup = ball_on_belt(false, in_numbers);
+  setup.walls[0].mesh.width = 0.2;
+  setup.walls[0].motion = motions.front();
+  setup.walls[0].carried_by.assign(motions.begin() + 1, motions.end());
+  setup.run.end.value = setup.output.every.value = 0.2;
+  Simulation run(setup);
+  while (!run.finished()) run.step();
+  return in_numbers ? run.bulk()->spheres().row[0].position() : run.particles().position[0];
+}
+
+TEST(Motions, OfTheSamePathMoveABallAlike) {
+  constexpr Vec3 z{0, 0, 1}, far{0.03, 0.01, 0};
+  MotionSetup whole = turning(z, 3.0), part = turning(z, 1.2), rest = turning(z, 1.8), table;
+  for (MotionSetup* m : {&whole, &part, &rest, &table}) m->center = far;
+  table.kind = MotionKind::table;
+  for (int r = 0; r <= 4; ++r) table.rows.push_back({0.06 * r, {}, 0.18 * r});
+  MotionSetup shift, first, second;
+  shift.kind = first.kind = MotionKind::translation;
+  shift.velocity = {0.1, 0.02, 0};
+  first.velocity = {0.1, 0, 0};
+  second.kind = MotionKind::table;
+  second.rows = {{0.0, {}, 0.0}, {0.07, {0, 0.0014, 0}, 0.0}, {0.4, {0, 0.008, 0}, 0.0}};
+  for (const bool in_numbers : {false, true}) {
+    SCOPED_TRACE(in_numbers ? "in numbers" : "named");
+    const Vec3 turned = taken_along({whole}, in_numbers), shifted = taken_along({shift}, in_numbers);
+    EXPECT_GT(norm(turned), 5e-3);
+    const double by_two = norm(taken_along({part, rest}, in_numbers) - turned);
+    const double by_table = norm(taken_along({table}, in_numbers) - turned);
+    const double by_shifts = norm(taken_along({first, second}, in_numbers) - shifted);
+    measured("a turn as two that carry each other: way of a ball [m]", by_two, 1e-11);
+    measured("a turn as a table", by_table, 1e-11);
+    measured("a shift as a shift and a table", by_shifts, 1e-11);
+    EXPECT_LT(by_two, 1e-11);
+    EXPECT_LT(by_table, 1e-11);
+    EXPECT_LT(by_shifts, 1e-11);
+  }
+}
+
+/// Particles look for walls again when they or the walls may have moved by the skin: what a wall can do in
+/// that time must never be more than its bound.
+TEST(Motions, NoWallComesCloserFasterThanItsBound) {
+  MotionSetup rocking;
+  rocking.kind = MotionKind::table;
+  rocking.axis = {0, 1, 0};
+  rocking.center = {-0.05, 0, 0};
+  rocking.after = TableEnd::repeat;
+  rocking.rows = {{0.0, {}, 0.0}, {0.02, {0, 0, 2e-3}, 0.03}, {0.05, {0, 1e-3, 0}, -0.02}, {0.06, {}, 0.0}};
+  MotionSetup shaking;
+  shaking.kind = MotionKind::oscillation;
+  shaking.amplitude = {0, 0, 0.5e-3};
+  shaking.frequency = 40.0;
+  for (const bool plane : {false, true}) {
+    simulation::Setup setup = ball_on_belt(plane, true);
+    setup.walls[0].mesh.width = 0.2;
+    setup.walls[0].motion = turning({0, 0, 1}, 4.0);
+    setup.walls[0].carried_by = {rocking, shaking};
+    setup.insertions[0].placed.clear();
+    for (int i = -2; i <= 2; ++i)
+      for (int j = -2; j <= 2; ++j)
+        setup.insertions[0].placed.push_back({{0.016 * i, 0.016 * j, 4e-3}, 3e-3, {}});
+    setup.run.end.value = setup.output.every.value = 0.15;
+    Simulation run(setup);
+    double worst = 0.0;
+    while (!run.finished()) {
+      run.step();
+      const geometry::Pose pose = run.walls()[0].pose_at(run.time() - run.time_step());
+      const BulkWalls& walls = run.bulk()->walls();
+      for (const contact::SphereRow& s : run.bulk()->spheres().row)
+        worst = std::max(worst, norm(pose.velocity_at(s.position())) / walls.fastest_wall());
+    }
+    measured(
+        plane ? "largest speed of a wall over its bound, plane" : "largest speed of a wall over its bound",
+        worst, 1.0);
+    EXPECT_LE(worst, 1.0);
+    EXPECT_GT(worst, 0.3);
+  }
+}
+
+/// A chute: a plate turned by the keys of its placement is the plane that it stands for.
+TEST(Placement, ATurnedPlateIsAnInclinedPlane) {
+  constexpr double slope = 30.0 * std::numbers::pi / 180.0;
+  const Vec3 n{std::sin(slope), 0.0, std::cos(slope)}, at{0.1, 0.0, 0.05};
+  Vec3 end[2];
+  for (const bool plane : {false, true}) {
+    simulation::Setup setup = ball_on_belt(plane, false);
+    setup.walls[0].motion = {};
+    setup.contacts[0].static_friction = 0.0;
+    setup.walls[0].mesh.length = 0.4;
+    setup.walls[0].mesh.position = at;
+    setup.walls[0].mesh.normal = n;
+    if (!plane) setup.walls[0].mesh.rotation = {0.0, slope, 0.0};
+    setup.particles[0].position = at + (3e-3 - 1e-8) * n;
+    setup.run.end.value = setup.output.every.value = 0.2;
+    Simulation run(setup);
+    while (!run.finished()) run.step();
+    end[plane ? 1 : 0] = run.particles().position[0];
+    const Vec3 way = run.particles().position[0] - setup.particles[0].position;
+    EXPECT_NEAR(dot(way, {std::cos(slope), 0, -std::sin(slope)}) / (0.5 * kG * std::sin(slope) * 0.04), 1.0,
+                1e-3);
+  }
+  measured("plate turned by 30 degrees against a plane: end of a slide [m]", norm(end[0] - end[1]), 1e-12);
+  EXPECT_LT(norm(end[0] - end[1]), 1e-12);
+}
+
+/// About x, then y, then z, axes that stay.
+TEST(Placement, TurnsAboutFixedAxesInTheirOrder) {
+  geometry::TriangleMesh mesh;
+  mesh.vertices = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 1, 2}};
+  MeshSetup setup;
+  constexpr double quarter = 0.5 * std::numbers::pi;
+  setup.rotation = {quarter, quarter, quarter};
+  setup.position = {5, 0, 0};
+  place(mesh, setup);
+  // y -> z (about x) -> x (about y) -> y (about z); x -> x -> -z -> -z; z -> -y -> -y -> x.
+  EXPECT_LT(norm(mesh.vertices[0] - Vec3{5, 1, 0}), 1e-15);
+  EXPECT_LT(norm(mesh.vertices[1] - Vec3{5, 0, -1}), 1e-15);
+  EXPECT_LT(norm(mesh.vertices[2] - Vec3{6, 0, 0}), 1e-15);
+}
+
 }  // namespace
 }  // namespace abradem::test

@@ -23,7 +23,7 @@ std::vector<Contour> wall_contours(const simulation::Wall& wall, int count) {
   const geometry::TriangleMesh& mesh = wall.surface().mesh();
   const auto reference = wall.surface().reference();
   const auto region = worn_region(mesh, reference);
-  const simulation::MotionSetup& motion = wall.setup().motion;
+  const simulation::MotionSetup& motion = leading_motion(wall.setup());
   if (motion.kind == MotionKind::rotation)
     return cut_contours(mesh, reference, region,
                         RotaryCuts{.axis = motion.axis, .center = motion.center, .count = count});

@@ -16,6 +16,7 @@
 #include "abradem/core/error.h"
 #include "abradem/io/atomic_file.h"
 #include "abradem/io/case_file.h"
+#include "abradem/io/case_motions.h"
 #include "abradem/io/wear_tests.h"
 #include "abradem/report/calibration_report.h"
 #include "abradem/report/groove_calibration_report.h"
@@ -85,6 +86,7 @@ int calibrate_case(const CalibrateArguments& arguments) {
   if (!arguments.quiet)
     for (const std::string& note : read.notes) print_message(note);
   simulation::Setup setup = std::move(read.setup);
+  io::read_motion_files(setup);
   if (arguments.method.empty()) {
     if (setup.run.method == simulation::Method::dynamic && can_be_quasi_static(setup)) {
       setup.run.method = simulation::Method::quasi_static;

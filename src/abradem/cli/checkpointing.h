@@ -58,11 +58,14 @@ struct RunInputs {
   std::vector<geometry::TriangleMesh> meshes;  ///< of the walls that have one, as they began
   std::vector<InsertionInputs> insertions;     ///< of each insertion
   std::vector<ShapeInputs> shapes;             ///< of each shape
+  /// Tables of each motion of each wall.
+  std::vector<std::vector<std::vector<simulation::MotionRow>>> motions;
 
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
     archive("resolved_case", self.resolved_case)("meshes", self.meshes)("insertions", self.insertions);
     archive("shapes", self.shapes);
+    archive("motions", self.motions);
   }
 };
 [[nodiscard]] RunInputs inputs_of(const simulation::Simulation& run, std::string resolved_case);

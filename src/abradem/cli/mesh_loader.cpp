@@ -33,7 +33,7 @@ geometry::TriangleMesh MeshLoader::operator()(const simulation::MeshSetup& mesh,
     print_message(fmt::format("warning: mesh '{}': {}", mesh.file, warning));
   if (!verdict.usable())
     throw GeometryError(fmt::format("mesh '{}': {}", mesh.file, fmt::join(verdict.errors, "; ")));
-  for (Vec3& p : read.vertices) p += mesh.position;
+  simulation::place(read, mesh);
   return read;
 }
 

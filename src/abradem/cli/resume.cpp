@@ -19,6 +19,7 @@
 #include "abradem/core/version.h"
 #include "abradem/io/atomic_file.h"
 #include "abradem/io/case_file.h"
+#include "abradem/io/case_motions.h"
 #include "abradem/io/checkpoint.h"
 #include "abradem/io/insertion_files.h"
 #include "abradem/report/manifest.h"
@@ -93,6 +94,13 @@ Resumed put_back(const io::Checkpoint& checkpoint, const fs::path& folder,
     setup.shapes[i].fit->fit = inputs.shapes[i].fit;
     setup.shapes[i].fit->solid = inputs.shapes[i].solid;
   }
+  archive.require(inputs.motions.size() == setup.walls.size(), "comes after other walls");
+  for (std::size_t w = 0; w < setup.walls.size(); ++w) {
+    simulation::WallSetup& wall = setup.walls[w];
+    archive.require(inputs.motions[w].size() == wall.motions(), "comes after other motions");
+    wall.motion.rows = inputs.motions[w][0];
+    for (std::size_t k = 1; k < wall.motions(); ++k) wall.carried_by[k - 1].rows = inputs.motions[w][k];
+  }
   resumed.run = std::make_unique<Simulation>(setup, next_mesh);
   resumed.run->load(archive);
   archive.require(archive.at_end(), "should be the last");
@@ -158,6 +166,7 @@ Resumed from_start(const fs::path& folder, const std::vector<std::string>& overr
   resumed.changed = change(read_file(folder / "case.resolved.toml"), folder, overrides);
   simulation::Setup setup = resumed.changed.setup;
   io::read_insertion_files(setup);
+  io::read_motion_files(setup);
   resumed.run = std::make_unique<Simulation>(setup, MeshLoader(setup));
   resumed.recorder = std::make_unique<io::RunRecorder>(*resumed.run, folder);
   resumed.how.record.inputs_hash = io::inputs_hash(resumed.changed.setup);

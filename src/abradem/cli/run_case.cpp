@@ -18,6 +18,7 @@
 #include "abradem/core/error.h"
 #include "abradem/io/atomic_file.h"
 #include "abradem/io/case_file.h"
+#include "abradem/io/case_motions.h"
 #include "abradem/io/insertion_files.h"
 #include "abradem/io/placement.h"
 #include "abradem/io/run_record.h"
@@ -267,6 +268,7 @@ int run_case(const RunOptions& options) {
   how.record.inputs_hash = io::inputs_hash(options.setup);
   simulation::Setup given = options.setup;
   io::read_insertion_files(given);
+  io::read_motion_files(given);
   simulation::Setup setup = given;
   const bool choose = study::wants_acceleration(setup);
   if (choose) setup = study::accelerated(setup, 1.0);

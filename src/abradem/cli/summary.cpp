@@ -7,6 +7,7 @@
 
 #include "abradem/core/units.h"
 #include "abradem/io/case_checks.h"
+#include "abradem/simulation/wall_motion.h"
 #include "abradem/study/variations.h"
 
 namespace abradem::cli {
@@ -24,6 +25,8 @@ std::string_view name_of(MotionKind kind) {
       return "moving";
     case MotionKind::oscillation:
       return "oscillating";
+    case MotionKind::table:
+      return "moving by a table";
   }
   return {};
 }
@@ -40,10 +43,17 @@ std::string shape_of(const MeshSetup& mesh) {
 /// What the first wall that turns or oscillates counts.
 std::string_view unit_of_counting(const Setup& setup) {
   for (const WallSetup& w : setup.walls) {
-    if (w.motion.kind == MotionKind::rotation) return "revolutions";
-    if (w.motion.kind == MotionKind::oscillation) return "cycles";
+    if (const MotionSetup* m = simulation::cyclic_motion(w))
+      return m->kind == MotionKind::rotation ? "revolutions" : "cycles";
   }
   return {};
+}
+
+/// "turning, and with that oscillating"
+std::string motions_of(const WallSetup& wall) {
+  std::string out(name_of(wall.motion.kind));
+  for (const MotionSetup& m : wall.carried_by) out += fmt::format(", and with that {}", name_of(m.kind));
+  return out;
 }
 
 }  // namespace
@@ -51,8 +61,7 @@ std::string_view unit_of_counting(const Setup& setup) {
 std::string summarize(const Setup& setup) {
   std::string out = setup.title.empty() ? std::string{} : fmt::format("{}\n", setup.title);
   for (const WallSetup& w : setup.walls)
-    out += fmt::format("  wall '{}' of {}: {}, {}\n", w.name, w.material, shape_of(w.mesh),
-                       name_of(w.motion.kind));
+    out += fmt::format("  wall '{}' of {}: {}, {}\n", w.name, w.material, shape_of(w.mesh), motions_of(w));
   for (const ParticleSetup& p : setup.particles)
     out += fmt::format("  particle '{}' of {}: radius {}, load {:.4g} N{}\n", p.name, p.material,
                        core::format_quantity(p.radius, "mm"), norm(p.load),

@@ -91,16 +91,19 @@ struct ContactChunk {
   }
 };
 
-/// The law over contacts 0 … count - 1; count a multiple of eight. docs/theory/contact.md
+/// The law over contacts 0 … count - 1; count a multiple of eight. Where nothing overlaps, all comes out as
+/// 0. docs/theory/contact.md
 ABRADEM_INLINE void hertz_mindlin_loop(ContactChunk& c, std::size_t count, double dt) noexcept {
 #pragma omp simd
   for (std::size_t k = 0; k < count; ++k) {
     const double nx = c.nx[k], ny = c.ny[k], nz = c.nz[k];
     const double vn = c.vx[k] * nx + c.vy[k] * ny + c.vz[k] * nz;
     const double tvx = c.vx[k] - vn * nx, tvy = c.vy[k] - vn * ny, tvz = c.vz[k] - vn * nz;
-    const double a = std::sqrt(c.R_eff[k] * c.overlap[k]);
+    const bool meets = c.overlap[k] > 0.0;
+    const double depth = meets ? c.overlap[k] : 0.0;
+    const double a = std::sqrt(c.R_eff[k] * depth);
     const double root = std::sqrt(a * c.m_eff[k]);
-    const double elastic = c.elastic[k] * a * c.overlap[k];
+    const double elastic = c.elastic[k] * a * depth;
     const double D_n = c.damping_n[k] * root, D_t = c.damping_t[k] * root, S_t = c.tangential[k] * a;
     const double F_n = elastic - D_n * vn;
 
@@ -120,9 +123,9 @@ ABRADEM_INLINE void hertz_mindlin_loop(ContactChunk& c, std::size_t count, doubl
     const double size2 = gx * gx + gy * gy + gz * gz, size = std::sqrt(size2);
     const double ratio = limit / size, cut = size2 > limit2 ? ratio : 1.0, keep = slips ? cut : 1.0;
     const double ftx = gx * cut, fty = gy * cut, ftz = gz * cut;
-    c.sx[k] = ux * keep;
-    c.sy[k] = uy * keep;
-    c.sz[k] = uz * keep;
+    c.sx[k] = meets ? ux * keep : 0.0;
+    c.sy[k] = meets ? uy * keep : 0.0;
+    c.sz[k] = meets ? uz * keep : 0.0;
     c.slip[k] = slips ? size - limit : 0.0;
     c.F_n[k] = F_n;
     c.fx[k] = F_n * nx + ftx;

@@ -17,6 +17,7 @@ struct OptionsChunk {
   Array wx, wy, wz;  // in: spin of this body relative to the other [rad/s]; out: torque on it [N m]
   Array mx, my, mz;  // elastic rolling torque, in and out [N m]
   Array twist;       // elastic torque about the normal, in and out [N m]
+  Array held;        // in: 1: it touched in the step before
   Array inertia;     // of the pair, about its centres [kg m^2]
   Array S_t;         // out: tangential stiffness [N/m]
   Array parted;      // out: 1: the contact is no more
@@ -32,7 +33,7 @@ struct OptionsChunk {
   }
   void copy(std::size_t from, std::size_t to) noexcept {
     for (Array* a : {&normal_k, &tangential_k, &damping, &cohesion, &adhesion, &rolling_spring, &torsion,
-                     &area, &a_c, &wx, &wy, &wz, &mx, &my, &mz, &twist, &inertia})
+                     &area, &a_c, &wx, &wy, &wz, &mx, &my, &mz, &twist, &held, &inertia})
       (*a)[to] = (*a)[from];
   }
 };
@@ -74,7 +75,7 @@ ABRADEM_INLINE void full_law_loop(ContactChunk& c, OptionsChunk& o, std::size_t 
     const double adhesive = pull * (u3 * u3 * (1.0 / 6.0) - u3);
     const double depth = overlap > 0.0 ? overlap : 0.0, a_free = std::sqrt(R * depth);
     const double free = (c.elastic[k] * a_free + o.normal_k[k]) * depth;
-    const bool gone = sticks ? beyond < 0.0 : overlap <= 0.0;
+    const bool apart = overlap <= 0.0, gone = sticks && o.held[k] > 0.0 ? beyond < 0.0 : apart;
     const double a = sticks ? a_c * u * u : a_free;
     const double elastic = sticks ? adhesive : free;
     // What friction stands on: the pressure between the bodies, without what cohesion takes off it.

@@ -34,11 +34,42 @@ std::span<const Patch> PatchEvaluator::evaluate(const MeshCandidates& candidates
   clusters_.clear();
   excess_.resize(candidates.x.size());
   largest_excess_ = kernels::node_excess(candidates, c, R, excess_);
+  by_nodes_ = false;
   if (tip.worn())
     evaluate_worn(candidates, c, R, pair, tip);
-  else if (!evaluate_nodes(candidates, c, R, pair))
+  else if (!(by_nodes_ = evaluate_nodes(candidates, c, R, pair)))
     evaluate_triangles(candidates, c, R, pair);
   return patches_;
+}
+
+double fineness(double a, double width) noexcept {
+  constexpr double kCoarse = 0.5, kFine = 1.0;
+  const double x = std::clamp((a / width - kCoarse) / (kFine - kCoarse), 0.0, 1.0);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+double width_of(const MeshCandidates& candidates, std::size_t t) noexcept {
+  return 4.0 / std::numbers::sqrt3 * candidates.area[t] / std::sqrt(candidates.longest[t]);
+}
+
+double PatchEvaluator::fineness_of(const MeshCandidates& candidates, std::span<const int> labels, int label,
+                                   double a) const noexcept {
+  if (by_nodes_) return 1.0;  // which is taken for edges below half the contact's radius alone
+  double sum = 0.0, fine = 0.0;
+  for (std::size_t t = 0; t < active_; ++t) {
+    if (!(mean_g_[t] > 0.0) || (!labels.empty() && labels[t] != label)) continue;
+    const double G = mean_g_[t] * candidates.area[t];
+    sum += G;
+    fine += G * fineness(a, width_of(candidates, t));
+  }
+  return sum > 0.0 ? fine / sum : -1.0;
+}
+
+void PatchEvaluator::forget() noexcept {
+  patches_.clear();
+  clusters_.clear();
+  excess_.clear();
+  raw_.clear();
 }
 
 /// The nodal way; false where it does not apply.

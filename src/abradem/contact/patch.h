@@ -47,6 +47,15 @@ class PatchEvaluator {
   /// at most.
   [[nodiscard]] std::span<const int> clusters() const noexcept { return clusters_; }
 
+  /// How fine the triangles of a part are against a contact of radius a: the mean of `fineness` over the
+  /// overlapped surface, weighted with the overlap. Of the sphere as new, from the last evaluation.
+  /// @param labels,label the part: triangles t with labels[t] == label; no labels: all
+  /// @return 0 to 1, continuous in the place of the sphere; negative where the part has no overlap
+  [[nodiscard]] double fineness_of(const MeshCandidates& candidates, std::span<const int> labels, int label,
+                                   double a) const noexcept;
+  /// As if it had never evaluated.
+  void forget() noexcept;
+
   /// What is asked for between two evaluations, for core/archive.h.
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
@@ -93,7 +102,14 @@ class PatchEvaluator {
   double largest_excess_ = 0.0;  // of the nodes
   double deepest_excess_ = 0.0;  // of the surface
   bool overlaps_ = false;
+  bool by_nodes_ = false;  // the last evaluation was nodal: it knows no single triangles
 };
+
+/// How fine a triangle of this width is for a contact of radius a: 0 up to a / width = 1/2, 1 from 1 on, with
+/// a smooth step between.
+[[nodiscard]] double fineness(double a, double width) noexcept;
+/// Edge of the equilateral triangle that has the least height of this one [m].
+[[nodiscard]] double width_of(const MeshCandidates& candidates, std::size_t t) noexcept;
 
 /// The patch of an overlap with sum G_T n_T = G [m^3] and weighted overlap volume M [m^4]; without force
 /// where they do not make a contact.

@@ -94,6 +94,11 @@ bool plane_forces(const Spheres& spheres, PlaneList& list, const MovingPlane& pl
         std::size_t count = 0;
         const std::size_t end = std::min(list.size(), (chunk + 1) * kCapacity);
         for (std::size_t k = chunk * kCapacity; k < end; ++k) {
+          const char* const row = reinterpret_cast<const char*>(&spheres.row[at(list.sphere[k])]);
+          __builtin_prefetch(row);
+          __builtin_prefetch(row + 64);
+        }
+        for (std::size_t k = chunk * kCapacity; k < end; ++k) {
           const SphereRow& s = spheres.row[at(list.sphere[k])];
           const double overlap = s.radius - (dot(n, s.position()) - level);
           const PairConstants& pair = by_material[static_cast<std::size_t>(s.material)];
@@ -122,6 +127,7 @@ bool plane_forces(const Spheres& spheres, PlaneList& list, const MovingPlane& pl
             const Vec3 spin = s.spin() - plane.pose.spin;
             const Vec3 torque = plane.pose.turn({list.torque[k].x, list.torque[k].y, list.torque[k].z});
             o.set_constants(count, pair);
+            o.held[count] = sticks ? 1.0 : 0.0;
             o.area[count] = kPi * overlap * (2.0 * s.radius - overlap);
             o.a_c[count] = snapping_radius(pair, s.radius);
             o.wx[count] = spin.x, o.wy[count] = spin.y, o.wz[count] = spin.z;

@@ -41,23 +41,19 @@ void radix_sort(std::vector<KeyedIndex>& items) {
 
 }  // namespace
 
-void SphereList::rebuild(Spheres& spheres, double skin) {
+void SphereList::rebuild(Spheres& spheres, double skin, double margin) {
   double largest = 0.0;
   for (const SphereRow& s : spheres.row) largest = std::max(largest, s.radius);
-  SphereList before;
-  before.start.swap(start);
-  before.partner.swap(partner);
-  before.touching.swap(touching);
-  before.spring.swap(spring);
-  before.torque.swap(torque);
-  before.count_ = count_;
+  const std::vector<ContactBlock> before = std::move(near);
   sort_along_curve(spheres, 2.0 * largest + skin);
   count_ = spheres.size();
   find_pairs(spheres, skin);
-  carry_springs(before);
-  link_far_pairs();
+  find_guests();
+  fill_near(spheres, margin, before, false);
   ++rebuilds_;
 }
+
+void SphereList::find_near(const Spheres& spheres, double margin) { fill_near(spheres, margin, near, true); }
 
 void SphereList::make_periodic(const Vec3& low, const Vec3& period) {
   low_ = low;
@@ -68,21 +64,12 @@ void SphereList::make_periodic(const Vec3& low, const Vec3& period) {
   }
 }
 
-void SphereList::name_images(const Spheres& spheres) {
-  image.clear();
-  if (period_ == Vec3{}) return;
-  image.resize(pairs());
+std::uint8_t SphereList::image_of(const Vec3& apart) const noexcept {
   const auto steps = [](double d, double period) {  // to the nearest image
     return period > 0.0 && d < -0.5 * period ? 2 : period > 0.0 && d > 0.5 * period ? 0 : 1;
   };
-  core::parallel_for(
-      pairs(),
-      [&](std::size_t k) {
-        const Vec3 d = spheres.row[at(owner[k])].position() - spheres.row[at(partner[k])].position();
-        image[k] = static_cast<std::uint8_t>(steps(d.x, period_.x) + 3 * steps(d.y, period_.y) +
-                                             9 * steps(d.z, period_.z));
-      },
-      kBlock);
+  return static_cast<std::uint8_t>(steps(apart.x, period_.x) + 3 * steps(apart.y, period_.y) +
+                                   9 * steps(apart.z, period_.z));
 }
 
 void SphereList::sort_along_curve(Spheres& spheres, double cell) {
@@ -234,83 +221,179 @@ void SphereList::find_pairs(const Spheres& spheres, double skin) {
   core::parallel_blocks(blocks(), [&](std::size_t b) {
     std::copy(found[b].begin(), found[b].end(), partner.begin() + start[b * kBlock]);
   });
-  name_owners();
-  name_images(spheres);
 }
 
-void SphereList::name_owners() {
-  owner.resize(partner.size());
+void SphereList::find_guests() {
+  std::vector<std::vector<std::int32_t>> found(blocks());
   core::parallel_blocks(blocks(), [&](std::size_t b) {
-    for (std::size_t i = b * kBlock; i < std::min(count_, (b + 1) * kBlock); ++i)
-      std::fill(owner.begin() + start[i], owner.begin() + start[i + 1], static_cast<std::int32_t>(i));
+    const std::size_t begin = b * kBlock, end = std::min(count_, begin + kBlock);
+    for (auto k = at(start[begin]); k < at(start[end]); ++k)
+      if (at(partner[k]) >= end) found[b].push_back(partner[k]);
+    std::ranges::sort(found[b]);
+    const auto rest = std::ranges::unique(found[b]);
+    found[b].erase(rest.begin(), rest.end());
   });
-}
-
-bool SphereList::restore(std::size_t spheres) {
-  const auto pairs_at_end = static_cast<std::int32_t>(partner.size());
-  if (start.size() != spheres + 1 || start.front() != 0 || start.back() != pairs_at_end ||
-      !std::ranges::is_sorted(start) || touching.size() != pairs() || spring.size() != pairs() ||
-      torque.size() != (torques_ ? pairs() : 0))
-    return false;
-  for (std::size_t i = 0; i < spheres; ++i) {
-    auto last = static_cast<std::int32_t>(i);  // partners come later, in ascending order
-    for (auto k = at(start[i]); k < at(start[i + 1]); last = partner[k++])
-      if (partner[k] <= last || at(partner[k]) >= spheres || touching[k] > 1) return false;
+  guest.clear();
+  guest_start.assign(1, 0);
+  visitors.assign(blocks(), {});
+  for (const std::vector<std::int32_t>& of_block : found) {
+    for (const std::int32_t g : of_block) {
+      const auto here = static_cast<std::int32_t>(guest.size());
+      std::vector<Visit>& visits = visitors[at(g) / kBlock];
+      const bool goes_on = !visits.empty() && visits.back().end == here && here > guest_start.back();
+      if (!goes_on) visits.push_back({static_cast<std::int32_t>(guest_start.size()) - 1, here, here});
+      ++visits.back().end;
+      guest.push_back(g);
+    }
+    guest_start.push_back(static_cast<std::int32_t>(guest.size()));
   }
-  count_ = spheres;
-  name_owners();
-  link_far_pairs();
-  return true;
 }
 
 /// A contact that stays is looked up in the row of the sphere that owned it; where the two have changed
 /// places in the order, its spring belongs to the other one and points the other way.
-void SphereList::carry_springs(const SphereList& before) {
-  touching.assign(pairs(), 0);
-  spring.assign(pairs(), {});
-  torque.assign(torques_ ? pairs() : 0, {});
-  if (before.partner.empty()) return;
-  core::parallel_for(
-      pairs(),
-      [&](std::size_t k) {
-        const std::int32_t i = was_[at(owner[k])], j = was_[at(partner[k])];
-        const auto [low, high] = std::minmax(i, j);
-        if (at(high) >= before.count_) return;
-        const auto row = before.partner.begin() + before.start[at(low)];
-        const auto row_end = before.partner.begin() + before.start[at(low) + 1];
-        const auto old = std::lower_bound(row, row_end, high);
-        if (old == row_end || *old != high) return;
-        const auto o = static_cast<std::size_t>(old - before.partner.begin());
-        if (before.touching[o] == 0) return;
-        touching[k] = 1;
-        const double sign = i < j ? 1.0 : -1.0;
-        const SpringRow& s = before.spring[o];
-        spring[k] = {sign * s.x, sign * s.y, sign * s.z, 0.0};
-        if (!torques_ || before.torque.empty()) return;
-        const SpringRow& t = before.torque[o];  // about the normal it is the same seen from either side
-        torque[k] = {sign * t.x, sign * t.y, sign * t.z, t.twist};
-      },
-      kBlock);
+void SphereList::fill_near(const Spheres& spheres, double margin, const std::vector<ContactBlock>& before,
+                           bool same_order) {
+  const bool periodic = period_ != Vec3{};
+  near.resize(blocks());
+  core::parallel_blocks(blocks(), [&](std::size_t b) {
+    static thread_local ContactBlock fresh;
+    static thread_local std::vector<std::int32_t> row_of;  // of the loads, of each guest
+    const std::size_t begin = b * kBlock, end = std::min(count_, begin + kBlock);
+    if (row_of.size() < count_) row_of.resize(count_);
+    for (auto g = guest_start[b]; g < guest_start[b + 1]; ++g)
+      row_of[at(guest[at(g)])] = static_cast<std::int32_t>(count_) + g;
+    const std::size_t most = at(start[end] - start[begin]);
+    fresh.resize(most, torques_, periodic);
+    fresh.first.assign(1, 0);
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const SphereRow& s = spheres.row[i];
+      for (auto k = at(start[i]); k < at(start[i + 1]); ++k) {
+        const std::int32_t j = partner[k];
+        const SphereRow& o = spheres.row[at(j)];
+        Vec3 apart = s.position() - o.position();
+        if (periodic) {
+          fresh.image[count] = image_of(apart);
+          apart += shift(fresh, count);
+        }
+        const double reach = s.radius + o.radius + margin;
+        fresh.i[count] = static_cast<std::int32_t>(i);
+        fresh.j[count] = j;
+        count += norm2(apart) < reach * reach;
+      }
+      fresh.first.push_back(static_cast<std::int32_t>(count));
+    }
+    fresh.count = count;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::int32_t i = fresh.i[k], j = fresh.j[k];
+      fresh.row[k] = at(j) < end ? j : row_of[at(j)];
+      const std::int32_t was_i = same_order ? i : was_[at(i)], was_j = same_order ? j : was_[at(j)];
+      fresh.remember(k, before, std::min(was_i, was_j), std::max(was_i, was_j), was_i < was_j ? 1.0 : -1.0);
+    }
+    near[b].take(fresh);
+  });
 }
 
-void SphereList::link_far_pairs() {
-  far.assign(pairs(), -1);
-  std::vector<std::int32_t> incoming(count_ + 1, 0);
-  const auto is_far = [&](std::size_t k) { return at(partner[k]) / kBlock != at(owner[k]) / kBlock; };
-  for (std::size_t k = 0; k < pairs(); ++k)
-    if (is_far(k)) ++incoming[at(partner[k]) + 1];
-  far_target.clear();
-  far_start.assign(1, 0);
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (incoming[i + 1] > 0) {
-      far_target.push_back(static_cast<std::int32_t>(i));
-      far_start.push_back(far_start.back() + incoming[i + 1]);
-    }
-    incoming[i + 1] += incoming[i];
+bool SphereList::restore(const Spheres& spheres) {
+  const auto pairs_at_end = static_cast<std::int32_t>(partner.size());
+  if (start.size() != spheres.size() + 1 || start.front() != 0 || start.back() != pairs_at_end ||
+      !std::ranges::is_sorted(start))
+    return false;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    auto last = static_cast<std::int32_t>(i);  // partners come later, in ascending order
+    for (auto k = at(start[i]); k < at(start[i + 1]); last = partner[k++])
+      if (partner[k] <= last || at(partner[k]) >= spheres.size()) return false;
   }
-  far_load.assign(at(incoming[count_]), {});
-  for (std::size_t k = 0; k < pairs(); ++k)
-    if (is_far(k)) far[k] = incoming[at(partner[k])]++;
+  count_ = spheres.size();
+  if (near.size() != blocks()) return false;
+  find_guests();
+  for (std::size_t b = 0; b < blocks(); ++b)
+    if (!restore_block(spheres, b)) return false;
+  return true;
+}
+
+/// Pairs of a block are some of those within the skin; what follows from them is made anew.
+bool SphereList::restore_block(const Spheres& spheres, std::size_t b) {
+  ContactBlock& block = near[b];
+  const std::size_t begin = b * kBlock, end = std::min(count_, begin + kBlock);
+  if (block.first.size() != end - begin + 1 || block.first.front() != 0 ||
+      !std::ranges::is_sorted(block.first))
+    return false;
+  block.count = at(block.first.back());
+  const std::size_t padded = ContactBlock::padded(block.count);
+  if (block.torque.size() != (torques_ ? padded : 0)) return false;
+  for (const std::size_t size : {block.i.size(), block.j.size(), block.touching.size(), block.sx.size(),
+                                 block.sy.size(), block.sz.size()})
+    if (size != padded) return false;
+  block.row.resize(padded);
+  block.image.resize(period_ != Vec3{} ? padded : 0);
+  for (std::size_t i = begin; i < end; ++i) {
+    auto k = at(start[i]);
+    for (auto c = at(block.first[i - begin]); c < at(block.first[i - begin + 1]); ++c, ++k) {
+      while (k < at(start[i + 1]) && partner[k] != block.j[c]) ++k;
+      if (k == at(start[i + 1]) || at(block.i[c]) != i || block.touching[c] > 1) return false;
+      const std::int32_t j = block.j[c];
+      const auto guests = guest.begin() + guest_start[b], guests_end = guest.begin() + guest_start[b + 1];
+      const auto place = std::lower_bound(guests, guests_end, j) - guest.begin();
+      block.row[c] = at(j) < end ? j : static_cast<std::int32_t>(count_ + static_cast<std::size_t>(place));
+      if (!block.image.empty())
+        block.image[c] = image_of(spheres.row[i].position() - spheres.row[at(j)].position());
+    }
+  }
+  block.repeat_last();
+  return true;
+}
+
+void ContactBlock::resize(std::size_t pairs, bool torques, bool periodic) {
+  const std::size_t size = padded(pairs) + 8;
+  for (std::vector<std::int32_t>* column : {&i, &j, &row}) column->resize(size);
+  for (std::vector<double>* column : {&sx, &sy, &sz}) column->resize(size);
+  touching.resize(size);
+  image.resize(periodic ? size : 0);
+  torque.resize(torques ? size : 0);
+}
+
+void ContactBlock::remember(std::size_t k, const std::vector<ContactBlock>& before, std::int32_t low,
+                            std::int32_t high, double sign) {
+  touching[k] = 0;
+  sx[k] = sy[k] = sz[k] = 0.0;
+  if (!torque.empty()) torque[k] = {};
+  const std::size_t b = at(low) / SphereList::kBlock, own = at(low) % SphereList::kBlock;
+  if (b >= before.size() || own + 1 >= before[b].first.size()) return;
+  const ContactBlock& old = before[b];
+  auto o = at(old.first[own]);
+  while (o < at(old.first[own + 1]) && old.j[o] < high) ++o;
+  if (o == at(old.first[own + 1]) || old.j[o] != high || old.touching[o] == 0) return;
+  touching[k] = 1;
+  sx[k] = sign * old.sx[o], sy[k] = sign * old.sy[o], sz[k] = sign * old.sz[o];
+  if (torque.empty() || old.torque.empty()) return;
+  const SpringRow& t = old.torque[o];  // about the normal it is the same seen from either side
+  torque[k] = {sign * t.x, sign * t.y, sign * t.z, t.twist};
+}
+
+void ContactBlock::take(const ContactBlock& from) {
+  count = from.count;
+  const auto copy = [](auto& to, const auto& column, std::size_t length) {
+    to.assign(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(std::min(length, column.size())));
+  };
+  copy(first, from.first, from.first.size());
+  const std::size_t size = padded(count);
+  copy(i, from.i, size), copy(j, from.j, size), copy(row, from.row, size);
+  copy(touching, from.touching, size), copy(image, from.image, size);
+  copy(sx, from.sx, size), copy(sy, from.sy, size), copy(sz, from.sz, size);
+  copy(torque, from.torque, size);
+  for (std::size_t k = count; k < size; ++k) {
+    touching[k] = 0, sx[k] = sy[k] = sz[k] = 0.0;
+    if (!torque.empty()) torque[k] = {};
+  }
+  repeat_last();
+}
+
+void ContactBlock::repeat_last() {
+  for (std::size_t k = count; k < padded(count); ++k) {
+    i[k] = i[count - 1], j[k] = j[count - 1], row[k] = row[count - 1];
+    if (!image.empty()) image[k] = image[count - 1];
+  }
 }
 
 }  // namespace abradem::contact

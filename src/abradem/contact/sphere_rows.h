@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "abradem/core/archive.h"
+#include "abradem/core/large_pages.h"
 #include "abradem/core/vec3.h"
 
 /// Spheres in numbers, as the contact search and the forces among them see them.
@@ -46,10 +47,13 @@ struct alignas(32) SpringRow {
   double x = 0.0, y = 0.0, z = 0.0, twist = 0.0;
 };
 
+using SphereRows = std::vector<SphereRow, core::LargePages<SphereRow>>;
+using LoadRows = std::vector<LoadRow, core::LargePages<LoadRow>>;
+
 /// Spheres in numbers. Their order follows a space-filling curve and changes when the list of neighbours is
 /// made anew; `id` stays with a sphere for life.
 struct Spheres {
-  std::vector<SphereRow> row;
+  SphereRows row;
   std::vector<std::int32_t> id;  ///< < 0: to be taken out at the next rebuild
   /// Which clump each belongs to; spheres of one do not touch one another. < 0: none; empty: no sphere does.
   std::vector<std::int32_t> clump;

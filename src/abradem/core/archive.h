@@ -59,8 +59,8 @@ constexpr std::uint32_t mix(std::uint32_t hash, std::uint32_t word) noexcept {
 
 template <typename T>
 struct IsVector : std::false_type {};
-template <typename T>
-struct IsVector<std::vector<T>> : std::true_type {};
+template <typename T, typename A>
+struct IsVector<std::vector<T, A>> : std::true_type {};
 template <typename T>
 struct IsOptional : std::false_type {};
 template <typename T>

@@ -17,4 +17,20 @@ Pose rotation_pose(const Vec3& axis, const Vec3& pivot, double angle, double rat
   return pose;
 }
 
+Pose compose(const Pose& outer, const Pose& inner) noexcept {
+  const Vec3 x = outer.turn({inner.row0.x, inner.row1.x, inner.row2.x}),
+             y = outer.turn({inner.row0.y, inner.row1.y, inner.row2.y}),
+             z = outer.turn({inner.row0.z, inner.row1.z, inner.row2.z});
+  const Vec3 pivot = outer.to_world(inner.pivot + inner.shift);
+  Pose pose;
+  pose.row0 = {x.x, y.x, z.x};
+  pose.row1 = {x.y, y.y, z.y};
+  pose.row2 = {x.z, y.z, z.z};
+  pose.pivot = inner.pivot;
+  pose.shift = pivot - inner.pivot;
+  pose.velocity = outer.velocity_at(pivot) + outer.turn(inner.velocity);
+  pose.spin = outer.spin + outer.turn(inner.spin);
+  return pose;
+}
+
 }  // namespace abradem::geometry

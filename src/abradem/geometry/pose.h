@@ -26,4 +26,8 @@ struct Pose {
 /// Rotation by an angle [rad] about a unit axis (Rodrigues).
 [[nodiscard]] Pose rotation_pose(const Vec3& axis, const Vec3& pivot, double angle, double rate) noexcept;
 
+/// The body is carried by `inner`, and that by `outer`: x = outer(inner(x_body)), with the velocities of
+/// both.
+[[nodiscard]] Pose compose(const Pose& outer, const Pose& inner) noexcept;
+
 }  // namespace abradem::geometry

@@ -15,8 +15,10 @@
 #include "abradem/contact/hertz_mindlin.h"
 #include "abradem/core/suggest.h"
 #include "abradem/core/units.h"
+#include "abradem/io/case_motions.h"
 #include "abradem/io/case_schema.h"
 #include "abradem/simulation/insertion.h"
+#include "abradem/simulation/wall_motion.h"
 
 namespace abradem::io {
 namespace {
@@ -33,7 +35,6 @@ std::string path_of(std::string_view section, std::string_view name) {
   return fmt::format("{}.{}", section, toml_key(name));
 }
 
-bool is_flat(MeshShape shape) { return shape != MeshShape::file; }
 bool is_generated(MeshShape shape) {
   return shape == MeshShape::annulus || shape == MeshShape::disc || shape == MeshShape::plate;
 }
@@ -489,7 +490,7 @@ class Checker {
     bool unknown = setup_.walls.empty();
     for (const WallSetup& wall : setup_.walls) {
       const std::string mesh = path_of("wall", wall.name) + ".mesh";
-      if (!good(mesh) || unusable_.contains(wall.name) || !is_flat(wall.mesh.shape)) {
+      if (!good(mesh) || unusable_.contains(wall.name) || !lies_flat(wall)) {
         unknown = true;  // its shape is known only once the file is read
         continue;
       }
@@ -585,7 +586,7 @@ class Checker {
                           p.name));
     }
     if (std::ranges::all_of(setup_.walls,
-                            [](const WallSetup& w) { return w.motion.kind == MotionKind::none; }))
+                            [](const WallSetup& w) { return leading_motion(w).kind == MotionKind::none; }))
       error("run.method", "method = \"quasi_static\" steps along a sliding distance, but no wall moves");
   }
 
@@ -658,23 +659,31 @@ Place Places::of(std::string path) const {
 bool Places::good(const std::string& path) const {
   const auto found = wrong_.lower_bound(path);
   for (auto it = found; it != wrong_.end() && it->first.starts_with(path); ++it)
-    if (it->first.size() == path.size() || it->first[path.size()] == '.') return false;
+    if (it->first.size() == path.size() || it->first[path.size()] == '.' || it->first[path.size()] == '[')
+      return false;
   return true;
 }
 
 void check_case(const Setup& setup, const Places& places, Problems& problems) {
   Checker(setup, places, problems).run();
+  check_motions(setup, places, problems);
 }
 
 double estimated_triangles(const MeshSetup& mesh) noexcept {
   return area(mesh) / (std::numbers::sqrt3 / 4.0 * mesh.size * mesh.size);
 }
 
+bool lies_flat(const WallSetup& wall) noexcept {
+  if (wall.mesh.shape == MeshShape::file || wall.mesh.rotation != Vec3{}) return false;
+  // A table that has not been read says nothing yet.
+  for (std::size_t k = 0; k < wall.motions(); ++k)
+    if (wall.motion_at(k).kind == MotionKind::table && wall.motion_at(k).rows.empty()) return false;
+  const geometry::Pose start = pose_of(wall, wall.motions(), 0.0), still;
+  return start.shift == Vec3{} && start.row0 == still.row0 && start.row1 == still.row1;
+}
+
 bool counts_revolutions(const Setup& setup) noexcept {
-  return std::ranges::any_of(setup.walls, [](const WallSetup& w) {
-    return (w.motion.kind == MotionKind::rotation && w.motion.rate != 0.0) ||
-           (w.motion.kind == MotionKind::oscillation && w.motion.frequency > 0.0);
-  });
+  return std::ranges::any_of(setup.walls, [](const WallSetup& w) { return cyclic_motion(w) != nullptr; });
 }
 
 std::string implausible_extent(const WallSetup& wall, std::string_view particle, double radius) {

@@ -37,6 +37,10 @@ class Places {
 /// that cannot be meant.
 void check_case(const simulation::Setup& setup, const Places& places, Problems& problems);
 
+/// Whether a wall is flat, and lies at the start as its shape is made: where it is follows from the case
+/// alone.
+[[nodiscard]] bool lies_flat(const simulation::WallSetup& wall) noexcept;
+
 /// Whether some wall turns or oscillates, so that revolutions can be counted.
 [[nodiscard]] bool counts_revolutions(const simulation::Setup& setup) noexcept;
 

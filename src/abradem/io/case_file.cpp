@@ -141,7 +141,13 @@ class CaseReader {
       return;
     }
     places_.set(path, entry->place);
-    if (section.naming == Naming::list) {
+    if (section.naming == Naming::one_or_list && entry->value.type == Value::Type::table) {
+      Target inner = target;
+      section.enter(inner, 0);
+      read_table(section, entry->value, entry->place, inner, path);
+      return;
+    }
+    if (section.naming == Naming::list || section.naming == Naming::one_or_list) {
       read_list(section, *entry, target, path);
       return;
     }
@@ -169,16 +175,23 @@ class CaseReader {
     const auto is_table = [](const Value& item) { return item.type == Value::Type::table; };
     if (entry.value.type != Value::Type::array || entry.value.items.empty() ||
         !std::ranges::all_of(entry.value.items, is_table)) {
-      problems_.error(entry.value.place, fmt::format("'{}' is a list of tables, each under [[{}]]: {}",
-                                                     entry.key, path, section.doc));
+      problems_.error(
+          entry.value.place,
+          fmt::format("'{}' is {}a list of tables, each under [[{}]]: {}", entry.key,
+                      section.naming == Naming::one_or_list ? "a table or " : "", path, section.doc));
       places_.set_wrong(path);
       return;
     }
+    // The one of one_or_list is there from the start.
+    bool there = section.naming == Naming::one_or_list;
     for (const Value& item : entry.value.items) {
-      section.add(target);
+      if (!there) section.add(target);
+      there = false;
       Target inner = target;
       section.enter(inner, section.count(inner) - 1);
-      read_table(section, item, item.place, inner, fmt::format("{}[{}]", path, section.count(inner)));
+      const std::string item_path = fmt::format("{}[{}]", path, section.count(inner));
+      places_.set(item_path, item.place);
+      read_table(section, item, item.place, inner, item_path);
     }
   }
 
@@ -270,7 +283,11 @@ simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems&
   const auto made_absolute = [&](std::string& file) {
     if (!file.empty()) file = fs::absolute(folder / file).lexically_normal().string();
   };
-  for (simulation::WallSetup& wall : setup.walls) made_absolute(wall.mesh.file);
+  for (simulation::WallSetup& wall : setup.walls) {
+    made_absolute(wall.mesh.file);
+    made_absolute(wall.motion.file);
+    for (simulation::MotionSetup& motion : wall.carried_by) made_absolute(motion.file);
+  }
   for (simulation::InsertionSetup& insertion : setup.insertions) {
     made_absolute(insertion.size.file);
     made_absolute(insertion.volume.file);

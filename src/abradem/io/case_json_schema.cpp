@@ -124,6 +124,10 @@ Json section_schema(const Section& section) {
     const std::string word(own_word(*child));
     if (child->naming == Naming::none) {
       properties[word] = section_schema(*child);
+    } else if (child->naming == Naming::one_or_list) {
+      Json item = section_schema(*child);
+      properties[word] = {
+          {"anyOf", Json::array({item, {{"type", "array"}, {"items", item}, {"minItems", 1}}})}};
     } else if (child->naming == Naming::list) {
       properties[word] = {{"type", "array"}, {"items", section_schema(*child)}};
       if (child->presence == Presence::at_least_one) properties[word]["minItems"] = 1;

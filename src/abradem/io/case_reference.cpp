@@ -25,7 +25,9 @@ std::string heading(const Section& section) {
   const std::size_t star = name.find('*');
   if (star != std::string::npos)
     name.replace(star, 1, section.naming == Naming::pair ? "\"NAME/NAME\"" : "NAME");
-  return list ? fmt::format("`[[{}]]`", name) : fmt::format("`[{}]`", name);
+  if (list) return fmt::format("`[[{}]]`", name);
+  if (section.naming == Naming::one_or_list) return fmt::format("`[{}]` or `[[{}]]`", name, name);
+  return fmt::format("`[{}]`", name);
 }
 
 std::string value_cell(const Row& row) {

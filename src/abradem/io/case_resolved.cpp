@@ -8,8 +8,9 @@ namespace abradem::io {
 namespace {
 
 void write_section(const Section& section, const Target& target, const std::string& path, std::string& out) {
-  if (!path.empty())
-    out += section.naming == Naming::list ? fmt::format("\n[[{}]]\n", path) : fmt::format("\n[{}]\n", path);
+  const bool list =
+      section.naming == Naming::list || (section.naming == Naming::one_or_list && section.count(target) > 1);
+  if (!path.empty()) out += list ? fmt::format("\n[[{}]]\n", path) : fmt::format("\n[{}]\n", path);
   for (const Row* row : rows_of(section)) {
     if (!applies(*row, target)) continue;
     if (const auto value = format_value(*row, row->slot(target)))
@@ -23,9 +24,9 @@ void write_section(const Section& section, const Target& target, const std::stri
     for (std::size_t i = 0; i < child->count(target); ++i) {
       Target inner = target;
       child->enter(inner, i);
-      const std::string inner_path = child->naming == Naming::none || child->naming == Naming::list
-                                         ? word
-                                         : fmt::format("{}.{}", word, toml_key(child->name(inner)));
+      const std::string inner_path = child->naming == Naming::name || child->naming == Naming::pair
+                                         ? fmt::format("{}.{}", word, toml_key(child->name(inner)))
+                                         : word;
       write_section(*child, inner, inner_path, out);
     }
   }

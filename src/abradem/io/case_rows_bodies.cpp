@@ -12,8 +12,9 @@ using namespace std::string_view_literals;
 
 // In the order of the enumerations of setup.h.
 constexpr std::array kShapes{"annulus"sv, "disc"sv, "plate"sv, "plane"sv, "file"sv};
-constexpr std::array kMotions{"none"sv, "rotation"sv, "translation"sv, "oscillation"sv};
-constexpr std::array kContactRules{"patch"sv, "resolved"sv, "per_triangle"sv};
+constexpr std::array kMotions{"none"sv, "rotation"sv, "translation"sv, "oscillation"sv, "table"sv};
+constexpr std::array kTableEnds{"hold"sv, "repeat"sv};
+constexpr std::array kContactRules{"patch"sv, "resolved"sv, "per_triangle"sv, "auto"sv};
 constexpr std::array kDeformations{"none"sv, "conserving"sv, "paper"sv};
 constexpr std::array kFootprints{"hertz"sv, "overlap"sv};
 constexpr std::array kGuides{"none"sv, "vertical"sv};
@@ -24,10 +25,13 @@ constexpr std::array kPlate{"plate"sv};
 constexpr std::array kPlane{"plane"sv};
 constexpr std::array kGenerated{"annulus"sv, "disc"sv, "plate"sv};
 constexpr std::array kFile{"file"sv};
+constexpr std::array kMeshed{"annulus"sv, "disc"sv, "plate"sv, "file"sv};
 constexpr std::array kRotation{"rotation"sv};
 constexpr std::array kTranslation{"translation"sv};
 constexpr std::array kOscillation{"oscillation"sv};
-constexpr std::array kWithAxis{"rotation"sv, "oscillation"sv};
+constexpr std::array kTable{"table"sv};
+constexpr std::array kTurning{"rotation"sv, "table"sv};
+constexpr std::array kWithAxis{"rotation"sv, "oscillation"sv, "table"sv};
 
 const std::array kRows{
     Row{.section = "wall.*",
@@ -45,7 +49,9 @@ const std::array kRows{
         .example = "\"patch\"",
         .doc = "How a sphere meets the triangles: as one patch independent of the mesh (patch), as one point "
                "per "
-               "connected flat part (resolved), or triangle by triangle (per_triangle)."},
+               "connected flat part (resolved), triangle by triangle (per_triangle), or by each contact as "
+               "patch "
+               "where its triangles are fine and as resolved where they are coarse (auto)."},
     Row{.section = "wall.*",
         .key = "deformation",
         .kind = Kind::choice,
@@ -174,11 +180,23 @@ const std::array kRows{
         .example = "[0, 0, \"-1 mm\"]",
         .doc = "Where the centre of the shape, or the origin of the file, is put."},
 
+    Row{.section = "wall.*.mesh",
+        .key = "rotation",
+        .kind = Kind::vector,
+        .need = Need::has_default,
+        .slot = ABRADEM_SLOT(wall->mesh.rotation),
+        .unit = "deg",
+        .when = {"shape", kMeshed},
+        .example = "[0, \"30 deg\", 0]",
+        .doc =
+            "Turns of the shape about its centre, or the origin of the file, before it is put at position: "
+            "about x, then y, then z, axes that stay where they are (right-hand rule)."},
+
     Row{.section = "wall.*.motion",
         .key = "kind",
         .kind = Kind::choice,
         .need = Need::has_default,
-        .slot = ABRADEM_CHOICE(wall->motion.kind),
+        .slot = ABRADEM_CHOICE(motion->kind),
         .choices = kMotions,
         .example = "\"rotation\"",
         .doc = "Kind of motion."},
@@ -186,7 +204,7 @@ const std::array kRows{
         .key = "axis",
         .kind = Kind::direction,
         .need = Need::has_default,
-        .slot = ABRADEM_SLOT(wall->motion.axis),
+        .slot = ABRADEM_SLOT(motion->axis),
         .when = {"kind", kWithAxis},
         .example = "[0, 0, 1]",
         .doc = "Axis of rotation (right-hand rule), or direction of an amplitude given as one length."},
@@ -194,15 +212,15 @@ const std::array kRows{
         .key = "center",
         .kind = Kind::vector,
         .need = Need::has_default,
-        .slot = ABRADEM_SLOT(wall->motion.center),
+        .slot = ABRADEM_SLOT(motion->center),
         .unit = "mm",
-        .when = {"kind", kRotation},
+        .when = {"kind", kTurning},
         .also = "centre",
         .example = "[0, 0, 0]",
         .doc = "A point on the axis of rotation."},
     Row{.section = "wall.*.motion",
         .key = "rate",
-        .slot = ABRADEM_SLOT(wall->motion.rate),
+        .slot = ABRADEM_SLOT(motion->rate),
         .unit = "deg/s",
         .when = {"kind", kRotation},
         .example = "\"180 deg/s\"",
@@ -210,7 +228,7 @@ const std::array kRows{
     Row{.section = "wall.*.motion",
         .key = "velocity",
         .kind = Kind::vector,
-        .slot = ABRADEM_SLOT(wall->motion.velocity),
+        .slot = ABRADEM_SLOT(motion->velocity),
         .unit = "mm/s",
         .when = {"kind", kTranslation},
         .example = "[\"70 mm/s\", 0, 0]",
@@ -218,7 +236,7 @@ const std::array kRows{
     Row{.section = "wall.*.motion",
         .key = "amplitude",
         .kind = Kind::along_axis,
-        .slot = ABRADEM_SLOT(wall->motion.amplitude),
+        .slot = ABRADEM_SLOT(motion->amplitude),
         .unit = "mm",
         .when = {"kind", kOscillation},
         .example = "[\"5 mm\", 0, 0]",
@@ -227,7 +245,7 @@ const std::array kRows{
                "by amplitude * sin(2 pi frequency t)."},
     Row{.section = "wall.*.motion",
         .key = "frequency",
-        .slot = ABRADEM_SLOT(wall->motion.frequency),
+        .slot = ABRADEM_SLOT(motion->frequency),
         .unit = "Hz",
         .limits = kPositive,
         .when = {"kind", kOscillation},
@@ -237,12 +255,54 @@ const std::array kRows{
         .key = "surface_velocity",
         .kind = Kind::vector,
         .need = Need::has_default,
-        .slot = ABRADEM_SLOT(wall->motion.surface_velocity),
+        .slot = ABRADEM_SLOT(motion->surface_velocity),
         .unit = "mm/s",
         .example = "[\"1.5 m/s\", 0, 0]",
         .doc = "Velocity at which the surface itself runs over the wall, as a conveyor belt does; turned "
                "into the "
                "surface where it is curved, at its full speed. The wall moves as kind says besides."},
+
+    Row{.section = "wall.*.motion",
+        .key = "file",
+        .kind = Kind::file,
+        .need = Need::optional,
+        .slot = ABRADEM_SLOT(motion->file),
+        .when = {"kind", kTable},
+        .example = "\"ride.csv\"",
+        .doc = "CSV file with the rows of the table, relative to the folder of the case file: time_s and any "
+               "of x_mm, y_mm, z_mm, angle_deg. Instead of rows."},
+    Row{.section = "wall.*.motion",
+        .key = "after",
+        .kind = Kind::choice,
+        .need = Need::has_default,
+        .slot = ABRADEM_CHOICE(motion->after),
+        .choices = kTableEnds,
+        .when = {"kind", kTable},
+        .example = "\"repeat\"",
+        .doc = "After the last row: stay there (hold), or begin again at the first (repeat), which must be "
+               "the same place."},
+
+    Row{.section = "wall.*.motion.rows.*",
+        .key = "time",
+        .slot = ABRADEM_SLOT(motion_row->time),
+        .unit = "s",
+        .example = "\"0.5 s\"",
+        .doc = "Time of the row; times ascend."},
+    Row{.section = "wall.*.motion.rows.*",
+        .key = "displacement",
+        .kind = Kind::vector,
+        .need = Need::has_default,
+        .slot = ABRADEM_SLOT(motion_row->displacement),
+        .unit = "mm",
+        .example = "[0, 0, \"5 mm\"]",
+        .doc = "How far the wall is from where it was put."},
+    Row{.section = "wall.*.motion.rows.*",
+        .key = "angle",
+        .need = Need::has_default,
+        .slot = ABRADEM_SLOT(motion_row->angle),
+        .unit = "deg",
+        .example = "\"30 deg\"",
+        .doc = "How far it is turned about its axis, before it is displaced."},
 
     Row{.section = "particle.*",
         .key = "material",

@@ -44,7 +44,7 @@ Target target_with_defaults() {
     s.materials.emplace_back();
     s.contacts.emplace_back();
     s.wear.emplace_back();
-    s.walls.emplace_back();
+    s.walls.emplace_back().motion.rows.emplace_back();
     s.particles.emplace_back();
     s.ploughing.emplace();
     s.insertions.emplace_back();
@@ -60,9 +60,18 @@ Target target_with_defaults() {
     s.study->variations.emplace_back();
     return s;
   }();
-  return {&setup,           &setup.materials[0],        &setup.contacts[0],   &setup.wear[0],
-          &setup.walls[0],  &setup.particles[0],        &setup.insertions[0], &setup.study->variations[0],
-          &setup.shapes[0], &setup.shapes[0].spheres[0]};
+  return {.setup = &setup,
+          .material = setup.materials.data(),
+          .contact = setup.contacts.data(),
+          .wear = setup.wear.data(),
+          .wall = setup.walls.data(),
+          .motion = &setup.walls[0].motion,
+          .motion_row = setup.walls[0].motion.rows.data(),
+          .particle = setup.particles.data(),
+          .insertion = setup.insertions.data(),
+          .variation = setup.study->variations.data(),
+          .shape = setup.shapes.data(),
+          .sphere = setup.shapes[0].spheres.data()};
 }
 
 /// { "wall.disc.mesh.size" = ["0.1 mm", "0.2 mm"] }

@@ -27,6 +27,8 @@ struct Target {
   simulation::ContactSetup* contact = nullptr;
   simulation::WearSetup* wear = nullptr;
   simulation::WallSetup* wall = nullptr;
+  simulation::MotionSetup* motion = nullptr;
+  simulation::MotionRow* motion_row = nullptr;
   simulation::ParticleSetup* particle = nullptr;
   simulation::InsertionSetup* insertion = nullptr;
   simulation::VariationSetup* variation = nullptr;
@@ -105,8 +107,8 @@ struct Row {
 };
 
 enum class Presence { required, optional, at_least_one };
-/// [run], [wall.NAME], [contact."NAME/NAME"], [[study.variation]]
-enum class Naming { none, name, pair, list };
+/// [run], [wall.NAME], [contact."NAME/NAME"], [[study.variation]], [wall.NAME.motion] or [[wall.NAME.motion]]
+enum class Naming { none, name, pair, list, one_or_list };
 
 struct Section {
   std::string_view path;  ///< "wall.*.mesh"; "*" stands for the name; the root is empty

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "abradem/io/case_motions.h"
 #include "abradem/io/case_schema.h"
 #include "abradem/simulation/insertion.h"
+#include "abradem/simulation/wall_motion.h"
 
 namespace abradem::io {
 namespace {
@@ -27,7 +29,9 @@ class Units {
   void check() {
     for (const MaterialSetup& m : setup_.materials) check_material(m, path_of("material", m.name));
     for (const WearSetup& w : setup_.wear) check_wear(w, path_of("wear", w.abrader + "/" + w.worn));
-    for (const WallSetup& w : setup_.walls) check_motion(w, path_of("wall", w.name) + ".motion");
+    for (const WallSetup& w : setup_.walls)
+      for (std::size_t k = 0; k < w.motions(); ++k)
+        check_motion(w, w.motion_at(k), motion_path(w, k, places_));
     for (const ParticleSetup& p : setup_.particles) check_particle(p, path_of("particle", p.name));
     for (const InsertionSetup& i : setup_.insertions) check_insertion(i, path_of("insertion", i.name));
     constexpr double kStrongest = 100.0;  // ten times the Earth's
@@ -87,31 +91,20 @@ class Units {
           w.wear_coefficient, 1e9 * w.wear_coefficient);
   }
 
-  /// Fastest that the wall moves under a particle [m/s].
+  /// Fastest that a motion takes the wall along under a particle [m/s].
   [[nodiscard]] double speed(const MotionSetup& motion) const {
-    switch (motion.kind) {
-      case MotionKind::none:
-        return 0.0;
-      case MotionKind::translation:
-        return norm(motion.velocity);
-      case MotionKind::oscillation:
-        return 2.0 * std::numbers::pi * motion.frequency * norm(motion.amplitude);
-      case MotionKind::rotation: {
-        double fastest = 0.0;
-        for (const ParticleSetup& p : setup_.particles)
-          fastest = std::max(fastest, norm(cross(motion.axis, p.position - motion.center)));
-        return std::abs(motion.rate) * fastest;
-      }
-    }
-    return 0.0;
+    const MotionLimits most = limits_of(motion);
+    double arm = 0.0;
+    for (const ParticleSetup& p : setup_.particles)
+      arm = std::max(arm, norm(cross(motion.axis, p.position - motion.center)));
+    return most.speed + most.rate * arm;
   }
 
-  void check_motion(const WallSetup& wall, const std::string& path) {
+  void check_motion(const WallSetup& wall, const MotionSetup& m, const std::string& path) {
     constexpr double kFastest = 100.0;       // [m/s]: a grinding wheel
     constexpr double kFewestDegrees = 10.0;  // of a bare rate: whoever thinks in radians writes 3.14 or 6.28
     constexpr double kWidest = 200.0;        // of an oscillation, in radii
     if (!places_.good(path)) return;
-    const MotionSetup& m = wall.motion;
     const double fastest = speed(m);
     if (m.kind == MotionKind::rotation && places_.bare(path + ".rate") && std::abs(m.rate) >= kFewestDegrees)
       ask(path + ".rate",

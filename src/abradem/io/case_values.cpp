@@ -76,7 +76,7 @@ class Reader {
       case Kind::force_down:
         return store(vector_along(value, {0.0, 0.0, -1.0}));
       case Kind::along_axis:
-        return store(vector_along(value, target_.wall->motion.axis));
+        return store(vector_along(value, target_.motion->axis));
       case Kind::duration:
         return store(duration(value));
       case Kind::time_step:

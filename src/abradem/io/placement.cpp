@@ -17,7 +17,6 @@ namespace abradem::io {
 
 namespace {
 
-using simulation::MeshShape;
 using simulation::Wall;
 
 constexpr double kDeepest = 0.1;   // overlap over radius beyond which Hertz contact means nothing
@@ -172,9 +171,7 @@ class Placement {
 }  // namespace
 
 void refuse_misplaced_particles(const simulation::Simulation& run) {
-  if (std::ranges::none_of(run.walls(),
-                           [](const Wall& w) { return w.setup().mesh.shape == MeshShape::file; }))
-    return;
+  if (std::ranges::all_of(run.walls(), [](const Wall& w) { return lies_flat(w.setup()); })) return;
   for (std::size_t p = 0; p < run.particles().size(); ++p) Placement(run, p).check();
 }
 

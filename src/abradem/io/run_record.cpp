@@ -15,6 +15,7 @@
 #include "abradem/core/version.h"
 #include "abradem/io/case_file.h"
 #include "abradem/io/wear_tables.h"
+#include "abradem/simulation/wall_motion.h"
 
 namespace abradem::io {
 
@@ -156,6 +157,9 @@ std::uint64_t inputs_hash(const simulation::Setup& setup) {
   add_bytes(hash, resolved_case(setup));
   for (const simulation::WallSetup& wall : setup.walls)
     if (wall.mesh.shape == simulation::MeshShape::file) add_file(hash, wall.mesh.file);
+  for (const simulation::WallSetup& wall : setup.walls)
+    for (std::size_t k = 0; k < wall.motions(); ++k)
+      if (const std::string& file = wall.motion_at(k).file; !file.empty()) add_file(hash, file);
   for (const simulation::InsertionSetup& insertion : setup.insertions)
     for (const std::string& file : {insertion.size.file, insertion.volume.file})
       if (!file.empty()) add_file(hash, file);
@@ -172,10 +176,9 @@ void record_walls(RunRecord& record, const simulation::Simulation& run) {
 }
 
 std::string counted(const simulation::Setup& setup) {
-  for (const simulation::WallSetup& wall : setup.walls) {
-    if (wall.motion.kind == simulation::MotionKind::rotation && wall.motion.rate != 0.0) return "revolution";
-    if (wall.motion.kind == simulation::MotionKind::oscillation) return "cycle";
-  }
+  for (const simulation::WallSetup& wall : setup.walls)
+    if (const simulation::MotionSetup* m = simulation::cyclic_motion(wall))
+      return m->kind == simulation::MotionKind::rotation ? "revolution" : "cycle";
   return "output";
 }
 

@@ -69,7 +69,7 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder, State st
                        CsvWriter::Growing{state_.particle_table});
   worn_wall_ = analysis::worn_wall(run.walls());
   const bool around =
-      worn_wall_ && run.walls()[*worn_wall_].setup().motion.kind == simulation::MotionKind::rotation;
+      worn_wall_ && leading_motion(run.walls()[*worn_wall_].setup()).kind == simulation::MotionKind::rotation;
   normality_.emplace(folder_ / "tables", around ? analysis::Ends::joined : analysis::Ends::open,
                      state_.normality_table);
   for (std::size_t p = run.particles().size(); p-- > 0;)

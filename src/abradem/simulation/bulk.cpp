@@ -176,16 +176,29 @@ void Bulk::find_contacts(const Surroundings& around, const Particles& named, std
     skin_ = spheres_.size() > 0 ? kSkin * sum / static_cast<double>(spheres_.size()) : 0.0;
     check_periods();
     if (table_.adhesion) skin_ = std::max(skin_, 2.0 * longest_stretch());
-    list_.rebuild(spheres_, skin_);
+    list_.rebuild(spheres_, skin_, margin(around.dt));
     if (!spheres_.clump.empty()) clumps_.settle(spheres_, domain_ ? domain_->low : Vec3{}, period_);
     walls_.rebuild(spheres_, around, skin_, named_, paper);
     find_named();
-    travelled_ = wall_time_ = 0.0;
+    travelled_ = near_at_ = wall_time_ = 0.0;
     const bool first = worn_out_;
     worn_out_ = false;
     if (first) fetch_named(named);
+  } else if (travelled_ - near_at_ > 0.5 * margin_) {
+    list_.find_near(spheres_, margin(around.dt));
+    near_at_ = travelled_;
   }
   walls_.find(spheres_, around, travelled_ + walls_.fastest_wall() * wall_time_);
+}
+
+/// Within which pairs are looked at in every step [m]. A wide margin lasts long and holds many that do not
+/// touch: their number times its width is least near the root of what the spheres travel in a step and what
+/// they may travel within the list.
+double Bulk::margin(double dt) {
+  const double way = std::sqrt(met_.fastest2) * dt;
+  margin_ = std::clamp(std::sqrt(way * skin_), std::min(4.0 * way, skin_), skin_);
+  if (table_.adhesion) margin_ = skin_;
+  return margin_;
 }
 
 void Bulk::check_periods() const {
@@ -211,7 +224,9 @@ double Bulk::longest_stretch() const {
 }
 
 void Bulk::compute_forces(const Surroundings& around, Particles& named) {
-  sound_ = contact::sphere_forces(spheres_, list_, table_, around.dt, load_);
+  walls_sound_ = walls_.compute(spheres_, around);
+  if (!needs_loads()) return;  // integrate() finds the forces among the spheres where it uses them
+  pairs_sound_ = contact::sphere_forces(spheres_, list_, table_, around.dt, load_);
   for (std::size_t p = 0; p < place_of_named_.size(); ++p) {
     contact::LoadRow& l = load_[place_of_named_[p]];
     named.force[p] += l.force();
@@ -220,13 +235,20 @@ void Bulk::compute_forces(const Surroundings& around, Particles& named) {
     l = {};
     l.stiffening = stiffening;
   }
-  sound_ = walls_.compute(spheres_, around, load_) && sound_;
+  walls_.add_loads(0, spheres_.size(), load_);
 }
 
 void Bulk::integrate(const Surroundings& around) {
-  if (!clumps_.empty()) clumps_.take_loads(load_);
-  met_ = contact::advance_spheres(spheres_.row, load_, around.gravity, around.dt);
-  if (!clumps_.empty()) clumps_.advance(spheres_, load_, around.gravity, around.dt, met_);
+  if (needs_loads()) {
+    if (!clumps_.empty()) clumps_.take_loads(load_);
+    met_ = contact::advance_spheres(spheres_.row, load_, around.gravity, around.dt);
+    if (!clumps_.empty()) clumps_.advance(spheres_, load_, around.gravity, around.dt, met_);
+  } else {
+    met_ = contact::forces_and_advance(
+        spheres_, list_, table_, around.dt, load_, around.gravity,
+        [&](std::size_t begin, std::size_t end) { walls_.add_loads(begin, end, load_); });
+    pairs_sound_ = met_.sound;
+  }
   const double fastest = std::sqrt(met_.fastest2);
   fastest_ = std::max(fastest_, fastest);
   travelled_ += fastest * around.dt;
@@ -237,7 +259,7 @@ void Bulk::check(const Surroundings& around, std::uint64_t step) const {
   const bool slow = met_.longest <= kFastest && met_.fastest2 <= fastest_allowed_ * fastest_allowed_ &&
                     walls_.fastest_wall() * around.dt <= skin_;
   if (!met_.finite || !slow) check_motion(around, step);
-  if (!sound_) check_overlaps(around, step);
+  if (!pairs_sound_ || !walls_sound_) check_overlaps(around, step);
 }
 
 void Bulk::check_motion(const Surroundings& around, std::uint64_t step) const {
@@ -270,16 +292,16 @@ void Bulk::check_motion(const Surroundings& around, std::uint64_t step) const {
 }
 
 void Bulk::check_overlaps(const Surroundings& around, std::uint64_t step) const {
-  for (std::size_t k = 0; k < list_.pairs(); ++k) {
-    const contact::SphereRow &i = spheres_.row[at(list_.owner[k])], &j = spheres_.row[at(list_.partner[k])];
-    const double overlap = i.radius + j.radius - norm(i.position() - j.position() + list_.shift(k));
+  list_.for_each_near([&](const contact::ContactBlock& block, std::size_t k) {
+    const contact::SphereRow &i = spheres_.row[at(block.i[k])], &j = spheres_.row[at(block.j[k])];
+    const double overlap = i.radius + j.radius - norm(i.position() - j.position() + list_.shift(block, k));
     // Positions are one step on, so what was a hair too deep may no longer be.
     if (overlap > 0.95 * contact::kDeepest * i.radius * j.radius / (i.radius + j.radius))
-      fail(at(list_.owner[k]),
+      fail(at(block.i[k]),
            fmt::format("its overlap with {} is {:.4g} mm, more than a tenth of the radius",
-                       title(at(list_.partner[k])), 1e3 * overlap),
+                       title(at(block.j[k])), 1e3 * overlap),
            around, step);
-  }
+  });
   constexpr double kDeepestInWall = 0.5 * contact::kDeepest;
   const auto check_wall = [&](std::int32_t sphere, std::size_t w, double overlap, double most) {
     if (overlap > most * spheres_.row[at(sphere)].radius)
@@ -357,11 +379,11 @@ BulkState Bulk::state(const std::vector<material::PairProperties>& properties) c
     state.mass += c.mass;
     state.kinetic_energy += c.kinetic_energy();
   }
-  for (std::size_t k = 0; k < list_.pairs(); ++k) {
-    const contact::SphereRow &i = spheres_.row[at(list_.owner[k])], &j = spheres_.row[at(list_.partner[k])];
+  list_.for_each_near([&](const contact::ContactBlock& block, std::size_t k) {
+    const contact::SphereRow &i = spheres_.row[at(block.i[k])], &j = spheres_.row[at(block.j[k])];
     const double reach = i.radius + j.radius,
-                 overlap = reach - norm(i.position() - j.position() + list_.shift(k));
-    if (overlap <= 0.0) continue;
+                 overlap = reach - norm(i.position() - j.position() + list_.shift(block, k));
+    if (overlap <= 0.0) return;
     ++state.pair_contacts;
     const auto& pair = properties[static_cast<std::size_t>(i.material) * table_.materials +
                                   static_cast<std::size_t>(j.material)];
@@ -369,7 +391,7 @@ BulkState Bulk::state(const std::vector<material::PairProperties>& properties) c
         pair.options.linear()
             ? 0.5 * pair.options.normal_stiffness * overlap * overlap
             : 0.4 * overlap * contact::hertz_force(pair, i.radius * j.radius / reach, overlap);
-  }
+  });
   state.wall_contacts = walls_.contacts();
   return state;
 }
@@ -389,8 +411,7 @@ bool Bulk::restore(const Surroundings& around) {
   find_named();
   for (std::size_t p = 0; p < place_of_named_.size(); ++p)
     if (spheres_.size() == 0 || at(spheres_.id[place_of_named_[p]]) != p) return false;
-  if (!list_.restore(spheres_.size())) return false;
-  list_.name_images(spheres_);
+  if (!list_.restore(spheres_)) return false;
   return walls_.restore(spheres_, around);
 }
 
@@ -404,9 +425,13 @@ void Bulk::add_to(core::StateHash& hash) const {
     hash.add(s.spin());
   }
   clumps_.add_to(hash);
-  for (std::size_t k = 0; k < list_.pairs(); ++k)
-    if (list_.touching[k] != 0) hash.add(Vec3{list_.spring[k].x, list_.spring[k].y, list_.spring[k].z});
-  for (const contact::SpringRow& t : list_.torque) hash.add(Vec3{t.x, t.y, t.z}), hash.add(t.twist);
+  list_.for_each_near([&](const contact::ContactBlock& block, std::size_t k) {
+    if (block.touching[k] == 0) return;
+    hash.add(block.spring(k));
+    if (block.torque.empty()) return;
+    const contact::SpringRow& t = block.torque[k];
+    hash.add(Vec3{t.x, t.y, t.z}), hash.add(t.twist);
+  });
   for (const contact::PlaneList& plane : walls_.planes())
     for (const contact::SpringRow& s : plane.spring) hash.add(Vec3{s.x, s.y, s.z});
   if (table_.options)

@@ -40,8 +40,10 @@ class Bulk {
   /// Takes in what is due for insertion and takes out what has left; makes the lists anew when they have worn
   /// out; finds the contacts with the walls.
   void find_contacts(const Surroundings& around, const Particles& named, std::vector<double>& paper);
-  /// Forces among all, and of the walls on those in numbers; adds their share to the named ones.
+  /// Forces of the walls on those in numbers, and, where others than integrate() ask for them, of all on all;
+  /// adds their share to the named ones.
   void compute_forces(const Surroundings& around, Particles& named);
+  /// Moves them; where nobody has asked for the forces among them, finds these on the way.
   void integrate(const Surroundings& around);
   /// @throws SimulationError naming a particle when the state has left the range that the equations hold in
   void check(const Surroundings& around, std::uint64_t step) const;
@@ -59,7 +61,7 @@ class Bulk {
   [[nodiscard]] const Clumps& clumps() const noexcept { return clumps_; }
   [[nodiscard]] std::int32_t named() const noexcept { return named_; }
   /// Forces of the last step's contacts, in the order of spheres(); those of named particles are handed over.
-  [[nodiscard]] const std::vector<contact::LoadRow>& loads() const noexcept { return load_; }
+  [[nodiscard]] const contact::LoadRows& loads() const noexcept { return load_; }
   [[nodiscard]] const std::vector<Inserter>& inserters() const noexcept { return inserters_; }
   /// Largest 2 g + W met. docs/theory/time-step.md
   [[nodiscard]] double worst_stability() const noexcept { return stability_.worst(); }
@@ -75,6 +77,7 @@ class Bulk {
     archive("spheres", self.spheres_)("list", self.list_)("walls", self.walls_)("clumps", self.clumps_);
     for (auto& inserter : self.inserters_) archive("inserter", inserter);
     archive("next_id", self.next_id_)("skin", self.skin_)("travelled", self.travelled_);
+    archive("margin", self.margin_)("near_at", self.near_at_)("fastest_now", self.met_.fastest2);
     archive("wall_time", self.wall_time_)("worn_out", self.worn_out_);
     archive("stability", self.stability_)("fastest", self.fastest_);
     archive("removed", self.removed_)("removed_mass", self.removed_mass_);
@@ -83,9 +86,11 @@ class Bulk {
   [[nodiscard]] bool restore(const Surroundings& around);
 
  private:
+  [[nodiscard]] bool needs_loads() const noexcept { return named_ > 0 || !clumps_.empty(); }
   void take_in(double time);
   [[nodiscard]] double longest_stretch() const;
   void check_periods() const;
+  [[nodiscard]] double margin(double dt);
   void take_out();
   void take_out_clumps();
   [[nodiscard]] bool in_clump(std::size_t i) const noexcept {
@@ -106,7 +111,7 @@ class Bulk {
   Clumps clumps_;
   contact::SphereList list_;
   contact::PairTable table_;
-  std::vector<contact::LoadRow> load_;
+  contact::LoadRows load_;
   BulkWalls walls_;
   std::vector<Inserter> inserters_;
   std::optional<DomainSetup> domain_;
@@ -115,7 +120,9 @@ class Bulk {
   std::vector<std::string> names_;
   std::int32_t named_ = 0, next_id_ = 0;
   double skin_ = 0.0, travelled_ = 0.0, wall_time_ = 0.0;  // since the lists were made
-  bool worn_out_ = true, sound_ = true;
+  double margin_ = 0.0,
+         near_at_ = 0.0;  // of the near pairs, and what had been travelled when they were found
+  bool worn_out_ = true, pairs_sound_ = true, walls_sound_ = true;
   contact::Advance met_;
   BulkStability stability_;
   double removed_mass_ = 0.0, fastest_ = 0.0, fastest_allowed_ = std::numeric_limits<double>::infinity();

@@ -45,23 +45,26 @@ std::vector<Link> links_of(const contact::Spheres& spheres, const contact::Spher
                            const contact::PairTable& table, const BulkWalls& walls,
                            const Surroundings& around, const std::vector<std::uint8_t>& hot) {
   std::vector<Link> links;
-  for (std::size_t k = 0; k < list.pairs(); ++k) {
-    if (list.touching[k] == 0 || (hot[at(list.owner[k])] == 0 && hot[at(list.partner[k])] == 0)) continue;
-    const contact::SphereRow &i = spheres.row[at(list.owner[k])], &j = spheres.row[at(list.partner[k])];
+  list.for_each_near([&](const contact::ContactBlock& block, std::size_t k) {
+    const std::size_t own = at(block.i[k]), other = at(block.j[k]);
+    if (block.touching[k] == 0 || (hot[own] == 0 && hot[other] == 0)) return;
+    const contact::SphereRow &i = spheres.row[own], &j = spheres.row[other];
     const Vec3 apart = before(i, around.dt) - before(j, around.dt);
     const double reach = i.radius + j.radius, distance = norm(apart), overlap = reach - distance;
-    if (!(overlap > 0.0)) continue;
+    if (!(overlap > 0.0)) return;
     Link link = link_of(table.of(i.material, j.material), std::sqrt(i.radius * j.radius / reach * overlap),
                         1.0 / (i.inverse_mass + j.inverse_mass), around.dt);
-    link.mode.sphere = at(list.owner[k]);
-    link.mode.partner = list.partner[k];
+    link.mode.sphere = own;
+    link.mode.partner = block.j[k];
     link.n = apart * (1.0 / distance);
     links.push_back(link);
-  }
-  const auto add_wall = [&](std::int32_t sphere, std::size_t w, const Vec3& n, double a) {
+  });
+  const auto add_wall = [&](std::int32_t sphere, std::size_t w, const Vec3& n, double a, double weight) {
     const contact::SphereRow& s = spheres.row[at(sphere)];
     const auto& pair = around.pair(static_cast<int>(s.material), around.walls[w].material());
     Link link = link_of(contact::PairConstants::of(pair), a, 1.0 / s.inverse_mass, around.dt);
+    link.damping *= weight;
+    link.stiffness *= weight;
     link.mode.sphere = at(sphere);
     link.mode.wall = static_cast<std::int32_t>(w);
     link.n = around.poses[w].turn(n);
@@ -75,12 +78,13 @@ std::vector<Link> links_of(const contact::Spheres& spheres, const contact::Spher
       const double height =
           dot(n, around.poses[w].to_body(before(s, around.dt)) - around.walls[w].setup().mesh.position);
       if (plane.touching[k] != 0 && hot[at(plane.sphere[k])] != 0 && height < s.radius)
-        add_wall(plane.sphere[k], w, n, std::sqrt(s.radius * (s.radius - height)));
+        add_wall(plane.sphere[k], w, n, std::sqrt(s.radius * (s.radius - height)), 1.0);
     }
   }
   for (const BulkWalls::NearMesh& m : walls.meshes())
     if (hot[at(m.sphere)] != 0)
-      for (const SphereWall::Touch& t : m.contact->touches()) add_wall(m.sphere, at(m.wall), t.n, t.a);
+      for (const SphereWall::Touch& t : m.contact->touches())
+        add_wall(m.sphere, at(m.wall), t.n, t.a, t.weight);
   return links;
 }
 
@@ -122,9 +126,9 @@ Scheme scheme_of(const Link& link, const Bodies& bodies, const std::vector<Tenso
 std::optional<BulkStability::Mode> BulkStability::watch(const contact::Spheres& spheres,
                                                         const contact::SphereList& list,
                                                         const contact::PairTable& table,
-                                                        const std::vector<contact::LoadRow>& load,
-                                                        const BulkWalls& walls, const Clumps& clumps,
-                                                        const Surroundings& around, double largest) {
+                                                        const contact::LoadRows& load, const BulkWalls& walls,
+                                                        const Clumps& clumps, const Surroundings& around,
+                                                        double largest) {
   worst_ = std::max(worst_, largest);
   // Twice the largest sum of one sphere bounds 2 g + W of every motion: nearly all runs end here.
   constexpr double kSafe = 0.5 * Scheme::kLimit;

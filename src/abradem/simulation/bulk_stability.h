@@ -30,9 +30,9 @@ class BulkStability {
   /// @param largest the largest 2 g + W of one sphere's contacts together in this step
   /// @return the mode in which a disturbance has grown a thousandfold, if there is one
   [[nodiscard]] std::optional<Mode> watch(const contact::Spheres& spheres, const contact::SphereList& list,
-                                          const contact::PairTable& table,
-                                          const std::vector<contact::LoadRow>& load, const BulkWalls& walls,
-                                          const Clumps& clumps, const Surroundings& around, double largest);
+                                          const contact::PairTable& table, const contact::LoadRows& load,
+                                          const BulkWalls& walls, const Clumps& clumps,
+                                          const Surroundings& around, double largest);
   /// Largest 2 g + W met, of a sphere's contacts together or of a mode. docs/theory/time-step.md
   [[nodiscard]] double worst() const noexcept { return worst_; }
 

@@ -2,7 +2,7 @@
 #include "abradem/simulation/bulk_walls.h"
 
 #include <algorithm>
-#include <numbers>
+#include <cmath>
 #include <tuple>
 
 #include "abradem/core/parallel.h"
@@ -25,29 +25,34 @@ SphereState state_of(const contact::SphereRow& s) noexcept {
   return {s.position(), s.velocity(), s.spin(), s.radius, 1.0 / s.inverse_mass};
 }
 
-/// Largest speed of a wall, over all time, at any point as far from its axis as the furthest sphere.
-double largest_speed(const Wall& wall, const contact::Spheres& spheres, double skin) {
-  const MotionSetup& m = wall.setup().motion;
-  switch (m.kind) {
-    case MotionKind::none:
-      return 0.0;
-    case MotionKind::translation:
-      return norm(m.velocity);
-    case MotionKind::oscillation:
-      return 2.0 * std::numbers::pi * m.frequency * norm(m.amplitude);
-    case MotionKind::rotation:
-      break;
+/// Bound of the speed at which a wall comes closer to any sphere while none of them, nor the wall, has moved
+/// by more than the skin: the sum over its motions, each with its largest speed over all time, and each
+/// rotation with its arm, in its own frame, to the furthest sphere or (if that is less) to the furthest
+/// vertex.
+double largest_speed(const Wall& wall, const contact::Spheres& spheres, double skin, double time) {
+  double sum = 0.0;
+  geometry::Pose outer;  // of all motions on top of the k-th
+  for (std::size_t k = wall.setup().motions(); k-- > 0;) {
+    const MotionSetup& m = wall.setup().motion_at(k);
+    const geometry::Pose pose = pose_of(m, time);
+    const MotionLimits most = limits_of(m);
+    sum += most.speed;
+    if (most.rate > 0.0) {
+      double arm2 = 0.0;
+      for (const contact::SphereRow& s : spheres.row)
+        arm2 = std::max(arm2, norm2(cross(m.axis, outer.to_body(s.position()) - pose.shift - m.center)));
+      if (!wall.is_plane()) {
+        const geometry::Pose inner = pose_of(wall.setup(), k, time);
+        double mesh2 = 0.0;
+        for (const Vec3& v : wall.surface().mesh().vertices)
+          mesh2 = std::max(mesh2, norm2(cross(m.axis, inner.to_world(v) - m.center)));
+        arm2 = std::min(arm2, mesh2);
+      }
+      sum += most.rate * (std::sqrt(arm2) + skin);
+    }
+    if (k > 0) outer = geometry::compose(outer, pose);
   }
-  double arm2 = 0.0;
-  for (const contact::SphereRow& s : spheres.row)
-    arm2 = std::max(arm2, norm2(cross(m.axis, s.position() - m.center)));
-  if (!wall.is_plane()) {  // no point of the wall is further out than its furthest vertex
-    double mesh2 = 0.0;
-    for (const Vec3& v : wall.surface().mesh().vertices)
-      mesh2 = std::max(mesh2, norm2(cross(m.axis, v - m.center)));
-    arm2 = std::min(arm2, mesh2);
-  }
-  return std::abs(m.rate) * (std::sqrt(arm2) + skin);
+  return sum;
 }
 
 }  // namespace
@@ -89,7 +94,7 @@ void BulkWalls::rebuild(const contact::Spheres& spheres, const Surroundings& aro
       continue;
     }
     if (wall.setup().until) next_removal_ = std::min(next_removal_, *wall.setup().until);
-    fastest_wall_ = std::max(fastest_wall_, largest_speed(wall, spheres, skin));
+    fastest_wall_ = std::max(fastest_wall_, largest_speed(wall, spheres, skin, around.time));
     odometer_[w] = wall.is_plane() ? 0.0 : wall.surface().odometer();
     if (wall.is_plane()) planes_[w].rebuild(spheres, plane_of(wall, around.poses[w]), skin, first_id);
   }
@@ -179,8 +184,7 @@ void BulkWalls::find(const contact::Spheres& spheres, const Surroundings& around
       kWorthSharing);
 }
 
-bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& around,
-                        std::vector<contact::LoadRow>& load) {
+bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& around) {
   bool sound = true;
   for (std::size_t w = 0; w < planes_.size(); ++w) {
     if (planes_[w].size() == 0) continue;
@@ -188,7 +192,6 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
     sound = contact::plane_forces(spheres, planes_[w], plane_of(around.walls[w], around.poses[w]), constants,
                                   options_, around.dt) &&
             sound;
-    for (std::size_t k = 0; k < planes_[w].size(); ++k) load[at(planes_[w].sphere[k])] += planes_[w].load[k];
   }
   std::vector<std::uint8_t> deep(meshes_.size(), 0);
   core::parallel_for(
@@ -205,13 +208,23 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
         for (const SphereWall::Touch& t : m.contact->touches()) {
           const double S = contact::step_stiffness(pair, t.a);
           const double D = contact::step_damping(pair, S, sphere.mass);
-          m.load.stiffening += (2.0 * D + S * around.dt) * around.dt;
+          m.load.stiffening += t.weight * (2.0 * D + S * around.dt) * around.dt;
           deep[k] = deep[k] != 0 || t.overlap > 0.5 * contact::kDeepest * s.radius;
         }
       },
       kWorthSharing);
-  for (const NearMesh& m : meshes_) load[at(m.sphere)] += m.load;
   return sound && std::ranges::none_of(deep, [](std::uint8_t d) { return d != 0; });
+}
+
+void BulkWalls::add_loads(std::size_t begin, std::size_t end, contact::LoadRows& load) const {
+  const auto first = static_cast<std::int32_t>(begin), last = static_cast<std::int32_t>(end);
+  for (const contact::PlaneList& plane : planes_) {
+    const auto from = std::ranges::lower_bound(plane.sphere, first) - plane.sphere.begin();
+    for (auto k = static_cast<std::size_t>(from); k < plane.size() && plane.sphere[k] < last; ++k)
+      load[at(plane.sphere[k])] += plane.load[k];
+  }
+  auto near = std::ranges::lower_bound(meshes_, first, {}, &NearMesh::sphere);
+  for (; near != meshes_.end() && near->sphere < last; ++near) load[at(near->sphere)] += near->load;
 }
 
 Vec3 BulkWalls::force_on(std::size_t wall) const noexcept {

@@ -44,9 +44,10 @@ class BulkWalls {
                std::vector<double>& paper);
   /// @param travelled how far any sphere and any wall may have moved against each other since the rebuild [m]
   void find(const contact::Spheres& spheres, const Surroundings& around, double travelled);
-  /// Adds the walls' forces to the loads. @return false when a sphere is too deep in a wall
-  [[nodiscard]] bool compute(const contact::Spheres& spheres, const Surroundings& around,
-                             std::vector<contact::LoadRow>& load);
+  /// The walls' forces. @return false when a sphere is too deep in a wall
+  [[nodiscard]] bool compute(const contact::Spheres& spheres, const Surroundings& around);
+  /// Adds them to the loads of spheres begin … end - 1.
+  void add_loads(std::size_t begin, std::size_t end, contact::LoadRows& load) const;
 
   [[nodiscard]] std::vector<NearMesh>& meshes() noexcept { return meshes_; }
   [[nodiscard]] const std::vector<NearMesh>& meshes() const noexcept { return meshes_; }

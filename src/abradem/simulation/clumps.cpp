@@ -167,7 +167,7 @@ bool Clumps::locate(const contact::Spheres& spheres, const Vec3& period) {
   return true;
 }
 
-void Clumps::take_loads(std::vector<contact::LoadRow>& load) {
+void Clumps::take_loads(contact::LoadRows& load) {
   core::parallel_for(
       clumps_.size(),
       [&](std::size_t n) {
@@ -208,8 +208,8 @@ void Clumps::place(const Clump& c, std::size_t n, contact::Spheres& spheres) con
   }
 }
 
-void Clumps::advance(contact::Spheres& spheres, const std::vector<contact::LoadRow>& load,
-                     const Vec3& gravity, double dt, contact::Advance& met) {
+void Clumps::advance(contact::Spheres& spheres, const contact::LoadRows& load, const Vec3& gravity, double dt,
+                     contact::Advance& met) {
   constexpr std::size_t kBlock = 256;
   std::vector<contact::Advance> of_block((clumps_.size() + kBlock - 1) / kBlock);
   core::parallel_blocks(of_block.size(), [&](std::size_t b) {

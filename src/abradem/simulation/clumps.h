@@ -101,11 +101,11 @@ class Clumps {
   void settle(contact::Spheres& spheres, const Vec3& low, const Vec3& period);
   /// Gathers what acts on the spheres of each clump about its centre, in the order of its spheres, and takes
   /// it from their rows (the stiffening stays). Forces are those at the present positions.
-  void take_loads(std::vector<contact::LoadRow>& load);
+  void take_loads(contact::LoadRows& load);
   /// Forces, gravity and torques change the momenta; the new momenta move and turn the clumps; their spheres
   /// follow, with velocities v + w x r. What is met is added to `met`.
-  void advance(contact::Spheres& spheres, const std::vector<contact::LoadRow>& load, const Vec3& gravity,
-               double dt, contact::Advance& met);
+  void advance(contact::Spheres& spheres, const contact::LoadRows& load, const Vec3& gravity, double dt,
+               contact::Advance& met);
 
   /// By how much a force of 1 N along any line through the centre of one of a clump's spheres speeds it up
   /// there, at most [1/kg].

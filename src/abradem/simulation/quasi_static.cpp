@@ -48,7 +48,7 @@ void Simulation::find_equilibrium(std::size_t p) {
         t.force.v_t = speed;
         carried -= dot(t.elastic_force * t.n + t.force.F_t, guide_body);
         const double n_guide = dot(t.n, guide_body);
-        slope += contact::normal_stiffness(properties, t.a) * n_guide * n_guide;
+        slope += t.weight * contact::normal_stiffness(properties, t.a) * n_guide * n_guide;
       }
     }
     const double excess = carried - load;

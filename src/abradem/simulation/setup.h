@@ -97,27 +97,47 @@ struct MeshSetup {
   double length = 0.0, width = 0.0;  ///< plate: along x and y [m]
   double size = 0.0;                 ///< target edge length [m]
   Vec3 position;                     ///< where the shape's centre (or the file's origin) goes [m]
-  Vec3 normal{0.0, 0.0, 1.0};        ///< plane: its outward normal
-  std::string file;                  ///< absolute, or relative to the case file's folder
-  double unit = 1.0;                 ///< file: metres per unit of length in the file
+  Vec3 rotation;               ///< turns about the fixed axes x, y and z, in this order, before that [rad]
+  Vec3 normal{0.0, 0.0, 1.0};  ///< plane: its outward normal
+  std::string file;            ///< absolute, or relative to the case file's folder
+  double unit = 1.0;           ///< file: metres per unit of length in the file
   bool operator==(const MeshSetup&) const = default;
 };
 
-enum class MotionKind { none, rotation, translation, oscillation };
-/// Rigid motion of a wall. An oscillation moves by amplitude * sin(2 pi frequency t).
+/// A row of a motion's table: where the wall is at a time. It is turned about its axis, then displaced.
+struct MotionRow {
+  double time = 0.0;   ///< [s]
+  Vec3 displacement;   ///< [m]
+  double angle = 0.0;  ///< [rad]
+  bool operator==(const MotionRow&) const = default;
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("time", self.time)("displacement", self.displacement)("angle", self.angle);
+  }
+};
+/// What a wall does after the last row of its table: it stays there, or begins again at the first.
+enum class TableEnd { hold, repeat };
+
+enum class MotionKind { none, rotation, translation, oscillation, table };
+/// Rigid motion of a wall. An oscillation moves by amplitude * sin(2 pi frequency t). A table is
+/// interpolated linearly, and holds its first row before it begins.
 struct MotionSetup {
   MotionKind kind = MotionKind::none;
   Vec3 axis{0.0, 0.0, 1.0};
-  Vec3 center;             ///< a point on the axis of rotation [m]
+  Vec3 center;             ///< rotation, table: a point on the axis of rotation [m]
   double rate = 0.0;       ///< rotation [rad/s]
   Vec3 velocity;           ///< translation [m/s]
   Vec3 amplitude;          ///< oscillation [m]
   double frequency = 0.0;  ///< oscillation [Hz]
   Vec3 surface_velocity;   ///< of a belt over the wall, which itself moves as `kind` says; wall's frame [m/s]
+  std::string file;        ///< table: its CSV file, absolute; empty: `rows` are given
+  std::vector<MotionRow> rows;      ///< table: given, or as read
+  TableEnd after = TableEnd::hold;  ///< table
   bool operator==(const MotionSetup&) const = default;
 };
 
-enum class ContactRule { patch, resolved, per_triangle };
+enum class ContactRule { patch, resolved, per_triangle, automatic };
 enum class DeformationRule { none, conserving, paper };
 enum class Footprint { hertz, overlap };
 
@@ -126,12 +146,19 @@ struct WallSetup {
   std::string material;
   MeshSetup mesh;
   MotionSetup motion;
+  std::vector<MotionSetup> carried_by;  ///< motions on top of `motion`, one after the other
   ContactRule contact = ContactRule::patch;
   DeformationRule deformation = DeformationRule::none;
   Footprint footprint = Footprint::hertz;
   int deform_every = 1;         ///< steps between updates of the shape; 1 in the rule `paper`
   std::optional<double> until;  ///< taken away at this time, as a gate is [s]; default: it stays
   bool operator==(const WallSetup&) const = default;
+
+  [[nodiscard]] std::size_t motions() const noexcept { return 1 + carried_by.size(); }
+  /// The k-th motion, the innermost first.
+  [[nodiscard]] const MotionSetup& motion_at(std::size_t k) const noexcept {
+    return k == 0 ? motion : carried_by[k - 1];
+  }
 };
 
 enum class Guide { none, vertical };

@@ -24,6 +24,21 @@ int index_of(const std::vector<T>& items, const std::string& name, const char* w
   return static_cast<int>(found - items.begin());
 }
 
+/// How fast a wall slides under a point, for the choice of a sliding increment [m/s]: at the start, or, of
+/// motions whose speeds change, the sum of the largest.
+double fastest_at(const Wall& wall, const Vec3& point) {
+  const WallSetup& setup = wall.setup();
+  if (setup.motions() == 1 && setup.motion.kind != MotionKind::table)
+    return norm(wall.pose_at(0.0).velocity_at(point));
+  double sum = 0.0;
+  for (std::size_t k = 0; k < setup.motions(); ++k) {
+    const MotionSetup& m = setup.motion_at(k);
+    const MotionLimits most = limits_of(m);
+    sum += most.speed + most.rate * norm(cross(m.axis, point - m.center));
+  }
+  return sum;
+}
+
 material::ContactOptions options_of(const ContactSetup& c) {
   material::ContactOptions o;
   if (c.law == ContactLaw::linear) {
@@ -297,6 +312,11 @@ void Simulation::add_tips() {
     for (const Wall& wall : walls_) {
       if (wear_coefficient(wall.material(), particles_.material[p]) == 0.0) continue;
       wears = true;
+      if (wall.setup().contact == ContactRule::automatic)
+        throw InputError(
+            fmt::format("wall '{}' wears particle '{}', and a worn tip has no contact = \"auto\": "
+                        "set contact = \"patch\"",
+                        wall.setup().name, particles_.name[p]));
       if (load > 0.0)
         a = std::min(a,
                      contact::contact_radius(
@@ -365,8 +385,7 @@ void Simulation::choose_time_step() {
       if (particles_.guide[p] == Vec3{} || norm(particles_.load[p]) == 0.0)
         throw InputError(fmt::format(
             "method quasi_static: particle '{}' needs guide = \"vertical\" and a load", particles_.name[p]));
-      for (const Wall& wall : walls_)
-        speed = std::max(speed, norm(wall.pose_at(0.0).velocity_at(particles_.position[p])));
+      for (const Wall& wall : walls_) speed = std::max(speed, fastest_at(wall, particles_.position[p]));
     }
     if (!(speed > 0.0)) throw InputError("method quasi_static: no wall slides under a particle");
     wanted = setup_.run.increment.value_or(choose_increment()) / speed;

@@ -19,6 +19,11 @@ double stretch_of(const contact::PairProperties& pair, double R) noexcept {
   return pair.options.adhesion > 0.0 ? contact::stretch_at_snap(contact::PairConstants::of(pair), R) : 0.0;
 }
 
+void weigh(contact::ContactForce& force, double weight) noexcept {
+  force.F_n *= weight;
+  force.F_t *= weight;
+}
+
 }  // namespace
 
 void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
@@ -40,8 +45,7 @@ void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
   // Under `patch` what is worn stays in contact over a short slide: wear ends at the contact radius a, the
   // ball at sqrt(2) a.
   const double short_slide = 0.4 * contact::contact_radius(R, approach);
-  if (stale_ || wall.setup().contact != ContactRule::patch ||
-      norm2(c - noted_at_) > short_slide * short_slide) {
+  if (stale_ || !by_patches(wall) || norm2(c - noted_at_) > short_slide * short_slide) {
     add_centroid_motion(wall);
     noted_at_ = c;
   }
@@ -55,48 +59,114 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
     touch_plane(wall, c, R, pair);
     return;
   }
-  const double stretch = stretch_of(pair, R);
   candidates_.update(wall.view(), c, axis_, reach_, skin_);
   if (stale_) note_nodes();
+  if (stale_ && wall.setup().contact == ContactRule::automatic) note_width();
   touches_.clear();
-
-  if (wall.setup().contact == ContactRule::patch) {
-    const auto patches = patches_.evaluate(candidates_, c, R, pair, tip_);
-    for (std::size_t i = 0; i < patches.size(); ++i) {
-      const contact::Patch& p = patches[i];
-      if (!(p.elastic_force > 0.0)) continue;
-      touches_.push_back({.n = p.n,
-                          .point = c - R * p.n,
-                          .overlap = p.overlap,
-                          .elastic_force = p.elastic_force,
-                          .a = contact::contact_radius(R, p.overlap),
-                          .deepest = p.deepest,
-                          .key = -1,
-                          .part = static_cast<int>(i),
-                          .nearest = -1,
-                          .force = {}});
-    }
-  } else {
-    const bool resolved = wall.setup().contact == ContactRule::resolved;
-    const auto points = resolved ? points_.resolved(candidates_, c, R + stretch, tip_)
-                                 : points_.per_triangle(candidates_, c, R, tip_);
-    for (const contact::PointContact& p : points) {
-      const double overlap = p.overlap - stretch, depth = std::max(overlap, 0.0);
-      if (overlap <= 0.0 && !sticking(p.n)) continue;
-      touches_.push_back(
-          {.n = p.n,
-           .point = p.point,
-           .overlap = overlap,
-           .elastic_force = contact::hertz_force(pair, R, depth),
-           .a = contact::contact_radius(R, depth),
-           .deepest = p.overlap,  // in the field of the stretched sphere, whose differences count
-           .key = resolved ? -1 : candidates_.triangle[at(p.triangle)],
-           .part = resolved ? p.set : p.triangle,
-           .nearest = p.triangle,
-           .force = {}});
-    }
+  switch (wall.setup().contact) {
+    case ContactRule::patch:
+      touch_patches(R, patches_.evaluate(candidates_, c, R, pair, tip_));
+      break;
+    case ContactRule::resolved:
+      touch_points(wall, R, pair, points_.resolved(candidates_, c, R + stretch_of(pair, R), tip_));
+      break;
+    case ContactRule::per_triangle:
+      touch_points(wall, R, pair, points_.per_triangle(candidates_, c, R, tip_));
+      break;
+    case ContactRule::automatic:
+      touch_either(wall, c, R, pair);
+      break;
   }
   if (!touches_.empty()) axis_ = -touches_.front().n;
+}
+
+void SphereWall::touch_patches(double R, std::span<const contact::Patch> patches) {
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const contact::Patch& p = patches[i];
+    if (!(p.elastic_force > 0.0)) continue;
+    touches_.push_back({.n = p.n,
+                        .point = centre_ - R * p.n,
+                        .overlap = p.overlap,
+                        .elastic_force = p.elastic_force,
+                        .a = contact::contact_radius(R, p.overlap),
+                        .deepest = p.deepest,
+                        .key = -1,
+                        .part = static_cast<int>(i),
+                        .nearest = -1,
+                        .force = {}});
+  }
+}
+
+void SphereWall::touch_points(const Wall& wall, double R, const contact::PairProperties& pair,
+                              std::span<const contact::PointContact> points) {
+  const bool every = wall.setup().contact == ContactRule::per_triangle;
+  const double stretch = every ? 0.0 : stretch_of(pair, R);
+  for (const contact::PointContact& p : points) {
+    const double overlap = p.overlap - stretch, depth = std::max(overlap, 0.0);
+    if (overlap <= 0.0 && !sticking(p.n)) continue;
+    touches_.push_back(
+        {.n = p.n,
+         .point = p.point,
+         .overlap = overlap,
+         .elastic_force = contact::hertz_force(pair, R, depth),
+         .a = contact::contact_radius(R, depth),
+         .deepest = p.overlap,  // in the field of the stretched sphere, whose differences count
+         .key = every ? candidates_.triangle[at(p.triangle)] : -1,
+         .part = every ? p.triangle : p.set,
+         .nearest = p.triangle,
+         .of_point = true,
+         .force = {}});
+  }
+}
+
+/// Both rules, each with its share. The shares follow from the overlapped triangles alone, so the force is as
+/// continuous as those of the rules, and no part of it depends on what was chosen before.
+void SphereWall::touch_either(const Wall& wall, const Vec3& c, double R,
+                              const contact::PairProperties& pair) {
+  // Where triangles are large, no contact comes near to being fine: the patches need not be asked.
+  constexpr double kLarge = 0.25;  // of R
+  constexpr double kMargin = 0.9;  // wear narrows triangles after they were gathered
+  if (narrowest_ > kLarge * R) {
+    const auto points = points_.resolved(candidates_, c, R);
+    double deepest = 0.0;
+    for (const contact::PointContact& p : points) deepest = std::max(deepest, p.overlap);
+    if (contact::fineness(contact::contact_radius(R, deepest), kMargin * narrowest_) == 0.0) {
+      patches_.forget();
+      touch_points(wall, R, pair, points);
+      return;
+    }
+  }
+  touch_patches(R, patches_.evaluate(candidates_, c, R, pair, tip_));
+  bool all = !touches_.empty();
+  for (Touch& t : touches_) {
+    t.weight =
+        patches_.fineness_of(candidates_, patches_.clusters(), t.part, contact::contact_radius(R, t.deepest));
+    all = all && t.weight == 1.0;
+  }
+  if (all) return;
+  const std::size_t patches = touches_.size();
+  touch_points(wall, R, pair, points_.resolved(candidates_, c, R));
+  for (std::size_t k = patches; k < touches_.size(); ++k) {
+    Touch& t = touches_[k];
+    double fine = patches == 0 ? 0.0 : patches_.fineness_of(candidates_, points_.sets(), t.part, t.a);
+    if (fine < 0.0) fine = contact::fineness(t.a, contact::width_of(candidates_, at(t.nearest)));
+    t.weight = 1.0 - fine;
+  }
+  std::erase_if(touches_, [](const Touch& t) { return !(t.weight > 0.0); });
+  for (Touch& t : touches_) t.elastic_force *= t.weight;
+}
+
+/// Does the surface act through patches alone now?
+bool SphereWall::by_patches(const Wall& wall) const noexcept {
+  if (wall.is_plane()) return false;
+  if (wall.setup().contact != ContactRule::automatic) return wall.setup().contact == ContactRule::patch;
+  return !touches_.empty() && std::ranges::none_of(touches_, &Touch::of_point);
+}
+
+void SphereWall::note_width() {
+  narrowest_ = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < candidates_.triangle_count(); ++t)
+    narrowest_ = std::min(narrowest_, contact::width_of(candidates_, t));
 }
 
 void SphereWall::touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
@@ -114,26 +184,34 @@ void SphereWall::touch_plane(const Wall& wall, const Vec3& c, double R, const co
                       .key = -1,
                       .part = 0,
                       .nearest = -1,
+                      .of_point = true,
                       .force = {}});
 }
 
 /// The memory that continues in this contact: the same element, else the unclaimed contact nearest in place
 /// (per_triangle), or the one that faced most alike, within 25 degrees (patch, resolved). None: a new one.
+/// Of two rules that share a contact each has its own; one that comes in goes on from the other's.
 SphereWall::Memory& SphereWall::recall(const Touch& touch, ContactRule rule) {
   Memory* best = nullptr;
   double best_score = rule == ContactRule::per_triangle ? -std::numeric_limits<double>::infinity() : 0.9;
+  const bool either = rule == ContactRule::automatic;
   for (Memory& m : memory_) {
-    if (m.used) continue;
+    if (m.used || (either && m.of_point != touch.of_point)) continue;
     const double score = rule != ContactRule::per_triangle ? dot(m.n, touch.n)
                          : m.key == touch.key              ? std::numeric_limits<double>::infinity()
                                                            : -norm2(m.point - touch.point);
     if (score > best_score) best = &m, best_score = score;
   }
-  kept_.push_back({.n = touch.n, .point = touch.point, .key = touch.key, .history = {}});
+  kept_.push_back(
+      {.n = touch.n, .point = touch.point, .key = touch.key, .history = {}, .of_point = touch.of_point});
   Memory& memory = kept_.back();
+  if (best != nullptr)
+    best->used = true;
+  else if (either)
+    for (Memory& m : memory_)
+      if (const double score = dot(m.n, touch.n); score > best_score) best = &m, best_score = score;
   memory.fresh = best == nullptr;
   if (best == nullptr) return memory;
-  best->used = true;
   memory.history = best->history;
   memory.speed = best->speed;
   memory.angle = best->angle;
@@ -142,26 +220,32 @@ SphereWall::Memory& SphereWall::recall(const Touch& touch, ContactRule rule) {
 }
 
 /// A contact that begins notes how the surfaces meet; it strikes in the step in which they no longer come
-/// closer, where the footprint is largest. @param v of the sphere's surface against the wall's
-void SphereWall::watch_impact(Memory& memory, const Vec3& n, const Vec3& v) noexcept {
-  const double v_n = dot(v, n);
+/// closer, where the footprint is largest. Where two rules share a contact the heavier one strikes, for both.
+/// @param v of the sphere's surface against the wall's
+void SphereWall::watch_impact(Memory& memory, const Touch& touch, const Vec3& v) noexcept {
+  const double v_n = dot(v, touch.n);
   if (memory.fresh && v_n < 0.0) {
     memory.speed = norm(v);
     memory.angle = std::asin(std::min(1.0, -v_n / memory.speed));
     memory.approaching = true;
   }
-  memory.striking = memory.approaching && v_n >= 0.0;
-  if (memory.striking) memory.approaching = false;
+  memory.striking = memory.approaching && v_n >= 0.0 && touch.weight >= 0.5;
+  if (!memory.striking) return;
+  memory.approaching = false;
+  if (touch.weight == 1.0) return;
+  for (auto* memories : {&memory_, &kept_})
+    for (Memory& m : *memories)
+      if (dot(m.n, touch.n) > 0.9) m.approaching = false;
 }
 
 /// The damper's power is (D v_n)^2 / D, and D v_n is what it takes off the elastic force.
 wear::WorkSample SphereWall::work_of(const Touch& touch, double slip, double mass,
                                      const contact::PairProperties& pair, double dt) noexcept {
   const double damper = contact::damping_coefficient(pair, contact::normal_stiffness(pair, touch.a), mass);
-  const double by_damper = touch.elastic_force - touch.force.F_n;
+  const double by_damper = (touch.elastic_force - touch.force.F_n) / touch.weight;
   return {.contact = {std::max(touch.force.F_n, 0.0), slip},
           .shear_work = norm(touch.force.F_t) * slip,
-          .normal_loss = damper > 0.0 ? by_damper * by_damper / damper * dt : 0.0};
+          .normal_loss = damper > 0.0 ? touch.weight * by_damper * by_damper / damper * dt : 0.0};
 }
 
 void SphereWall::add_strike(const wear::Laws& laws, const Memory& memory, double R, double mass,
@@ -187,9 +271,10 @@ bool SphereWall::compute_with_options(Touch& touch, const Vec3& v, const SphereS
   const contact::PairConstants constants = contact::PairConstants::of(pair);
   c.set_constants(0, constants);
   o.set_constants(0, constants);
+  o.held[0] = 1.0;  // what is found apart is found because it sticks
   // The contact rule knows the elastic force; a patch in a groove is stiffer than Hertz on a plane.
   const double plane = touch.overlap > 0.0 ? contact::hertz_force(pair, R, touch.overlap) : 0.0;
-  if (plane > 0.0) c.elastic[0] *= touch.elastic_force / plane;
+  if (plane > 0.0) c.elastic[0] *= touch.elastic_force / touch.weight / plane;
   c.nx[0] = touch.n.x, c.ny[0] = touch.n.y, c.nz[0] = touch.n.z;
   c.vx[0] = v.x, c.vy[0] = v.y, c.vz[0] = v.z;
   c.sx[0] = history.s.x, c.sy[0] = history.s.y, c.sz[0] = history.s.z;
@@ -222,11 +307,12 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
     const Vec3 n = pose.turn(touch.n);
     const Vec3 arm = -sphere.radius * n;
     const Vec3 v = sphere.velocity + cross(sphere.spin, arm) - pose.velocity_at(sphere.position + arm);
-    contact::ContactState state{touch.n, touch.elastic_force, touch.a, sphere.mass, pose.turn_back(v)};
+    contact::ContactState state{touch.n, touch.elastic_force / touch.weight, touch.a, sphere.mass,
+                                pose.turn_back(v)};
     if (wall.is_belt()) state.v -= wall.belt_velocity(touch.n);
     Memory& memory = recall(touch, wall.setup().contact);
     touch.memory = static_cast<int>(kept_.size()) - 1;
-    if (wall.watches_impacts()) watch_impact(memory, touch.n, state.v);
+    if (wall.watches_impacts()) watch_impact(memory, touch, state.v);
     if (pair.options.any()) {
       Vec3 torque;
       const Vec3 spin = pose.turn_back(sphere.spin - pose.spin);
@@ -235,6 +321,8 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
         touch.memory = -1;
         continue;
       }
+      weigh(touch.force, touch.weight);
+      torque *= touch.weight;
       const Vec3 tangential = pose.turn(touch.force.F_t);
       total.force += touch.force.F_n * n + tangential;
       total.torque += cross(arm, tangential) + pose.turn(torque);
@@ -242,9 +330,10 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
       continue;
     }
     touch.force = contact::hertz_mindlin(pair, state, dt, memory.history);
+    weigh(touch.force, touch.weight);
     const Vec3 tangential = pose.turn(touch.force.F_t);
     total.force += touch.force.F_n * n + tangential;
-    const double I = 0.4 * sphere.mass * sphere.radius * sphere.radius;
+    const double I = 0.4 * touch.weight * sphere.mass * sphere.radius * sphere.radius;
     const Vec3 rolling =
         contact::rolling_torque(pair, sphere.radius, touch.force.F_n, sphere.spin - pose.spin, I, dt);
     total.torque += cross(arm, tangential) + rolling;
@@ -271,7 +360,8 @@ ForceAndTorque SphereWall::load(const geometry::Pose& pose, double R) const noex
 bool SphereWall::deposit_inside(Wall& wall, const Touch& touch, double dV, double R,
                                 const contact::PairProperties& pair) {
   const auto t = static_cast<std::size_t>(touch.nearest);
-  const double a = contact::contact_radius(R, contact::hertz_overlap(pair, R, touch.force.F_n));
+  const double a =
+      contact::contact_radius(R, contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight));
   const Vec3 p0 = candidates_.node_position(at(candidates_.v0[t])),
              p1 = candidates_.node_position(at(candidates_.v1[t])),
              p2 = candidates_.node_position(at(candidates_.v2[t]));
@@ -309,15 +399,15 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
     return;
   }
 
-  if (wall.setup().contact == ContactRule::resolved && !paper && !tip_.worn() &&
-      wall.setup().footprint == Footprint::hertz && deposit_inside(wall, touch, dV, R, pair))
+  if (touch.of_point && !paper && !tip_.worn() && wall.setup().footprint == Footprint::hertz &&
+      deposit_inside(wall, touch, dV, R, pair))
     return;
-  const std::span<const char> mask = mask_of(wall, touch.part);
-  const wear::OverlapField field = overlap_field(wall, R, touch.deepest);
+  const std::span<const char> mask = mask_of(wall, touch.part, touch.of_point);
+  const wear::OverlapField field = overlap_field(R, touch.deepest, touch.of_point);
   const wear::FootprintShares& shares =
       wall.setup().footprint == Footprint::hertz
-          ? footprint_.hertz(candidates_, field, contact::hertz_overlap(pair, R, touch.force.F_n), paper,
-                             mask)
+          ? footprint_.hertz(candidates_, field,
+                             contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight), paper, mask)
           : footprint_.overlap(candidates_, field, paper, mask);
   if (!(shares.total > 0.0)) return;
   const double scale = dV / shares.total;
@@ -342,19 +432,17 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
 }
 
 /// Triangles of one contact (0: not of it); empty: all.
-std::span<const char> SphereWall::mask_of(const Wall& wall, int part) {
-  const bool resolved = wall.setup().contact == ContactRule::resolved;
-  const std::span<const int> parts = resolved ? points_.sets() : patches_.clusters();
+std::span<const char> SphereWall::mask_of(const Wall& wall, int part, bool of_point) {
+  const std::span<const int> parts = of_point ? points_.sets() : patches_.clusters();
   if (parts.empty() || wall.setup().contact == ContactRule::per_triangle) return {};
   mask_.resize(candidates_.triangle_count());
   for (std::size_t t = 0; t < mask_.size(); ++t) mask_[t] = parts[t] == part;
   return mask_;
 }
 
-wear::OverlapField SphereWall::overlap_field(const Wall& wall, double R, double deepest) const {
-  const bool patch = wall.setup().contact == ContactRule::patch;
-  return {patch ? patches_.node_excess() : points_.node_excess(), R,      deepest, tip_,
-          patch ? patches_.raw_excess() : points_.raw_excess(),   centre_};
+wear::OverlapField SphereWall::overlap_field(double R, double deepest, bool of_point) const {
+  return {of_point ? points_.node_excess() : patches_.node_excess(), R,      deepest, tip_,
+          of_point ? points_.raw_excess() : patches_.raw_excess(),   centre_};
 }
 
 const std::vector<SphereWall::Spot>& SphereWall::find_spots(const Wall& wall) {
@@ -363,8 +451,14 @@ const std::vector<SphereWall::Spot>& SphereWall::find_spots(const Wall& wall) {
   for (const Touch& touch : touches_) {
     const double force = std::max(touch.force.F_n, 0.0);
     if (!(force > 0.0)) continue;
-    if (spots_.empty() || !as_one) spots_.push_back({{}, 0.0, 0.0, touch.part});
-    Spot& spot = spots_.back();
+    // Two rules that share a contact press the same spot.
+    auto alike = as_one ? spots_.begin() : spots_.end();
+    if (touch.weight < 1.0)
+      alike =
+          std::ranges::find_if(spots_, [&](const Spot& s) { return dot(normalized(s.n), touch.n) > 0.9; });
+    if (alike == spots_.end())
+      alike = spots_.insert(spots_.end(), {{}, 0.0, 0.0, touch.part, touch.of_point});
+    Spot& spot = *alike;
     spot.n += force * touch.n;
     spot.force += force;
     spot.deepest = std::max(spot.deepest, touch.deepest);
@@ -411,8 +505,10 @@ void SphereWall::press(wear::WearingTip& tip, const Wall& wall, const Spot& spot
     tip.press_on_plane({{{}, R, spot.deepest, tip_, {}, centre_}, tip_, d_e},
                        dot(centre_ - plane.position, plane.normal), plane.normal, -R * spot.n);
   } else {
-    tip.press_on(candidates_, {overlap_field(wall, R, spot.deepest), tip_, d_e, mask_of(wall, spot.part)},
-                 -R * spot.n);
+    tip.press_on(
+        candidates_,
+        {overlap_field(R, spot.deepest, spot.of_point), tip_, d_e, mask_of(wall, spot.part, spot.of_point)},
+        -R * spot.n);
   }
 }
 
@@ -472,7 +568,7 @@ NormalParts SphereWall::normal_parts(const Wall& wall, const Vec3& axis) const n
   };
   Vec3 resultant;
   for (const Touch& touch : touches_) resultant += touch.force.F_n * touch.n;
-  if (wall.is_plane() || wall.setup().contact != ContactRule::patch || touches_.empty()) {
+  if (!by_patches(wall) || touches_.empty()) {
     for (const Touch& touch : touches_) add(touch.force.F_n * touch.n);
     return parts;
   }
@@ -507,7 +603,7 @@ double SphereWall::pending_volume() const noexcept {
 void SphereWall::add_centroid_motion(const Wall& wall) {
   if (wall.setup().deformation != DeformationRule::conserving) return;
   const geometry::TriangleMesh& mesh = wall.surface().mesh();
-  const bool patch = wall.setup().contact == ContactRule::patch;
+  const bool patch = by_patches(wall);
   const std::span<const double> excess = patches_.node_excess();
   bool moved = false;
   for (std::size_t i = 0; i < noted_.size(); ++i) {
@@ -541,8 +637,7 @@ bool SphereWall::inside(std::size_t t) const noexcept {
 }
 
 int SphereWall::elements(const Wall& wall) const {
-  if (wall.is_plane() || wall.setup().contact != ContactRule::patch || touches_.empty())
-    return static_cast<int>(touches_.size());
+  if (!by_patches(wall) || touches_.empty()) return static_cast<int>(touches_.size());
   int count = 0;
   for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) count += inside(t);
   return std::max(count, static_cast<int>(touches_.size()));
@@ -572,6 +667,7 @@ bool SphereWall::restore(const Wall& wall) {
   patches_.restore(tip_);
   if (wall.is_plane()) return true;
   if (!candidates_.restore(wall.surface().mesh())) return false;
+  if (wall.setup().contact == ContactRule::automatic) note_width();
   const std::size_t nodes = candidates_.node_count(), padded = candidates_.x.size();
   motion_.assign(padded, {});
   return (noted_.empty() || noted_.size() == nodes) &&

@@ -60,6 +60,8 @@ class SphereWall {
     int key = -1;                ///< per_triangle: mesh triangle
     int part = 0;                ///< patch or flat set that it stands for
     int nearest = -1;            ///< point contacts: candidate triangle that holds the nearest point
+    bool of_point = false;       ///< a point contact, not a patch
+    double weight = 1.0;  ///< `automatic`: share of the rule in the force, which all forces here have [-]
     contact::ContactForce force;
     int memory = -1;  ///< place of its memory in this step; -1: none
 
@@ -68,6 +70,7 @@ class SphereWall {
       archive("n", self.n)("point", self.point)("overlap", self.overlap);
       archive("elastic_force", self.elastic_force)("a", self.a)("deepest", self.deepest);
       archive("key", self.key)("part", self.part)("nearest", self.nearest)("force", self.force);
+      archive("of_point", self.of_point)("weight", self.weight);
     }
   };
 
@@ -210,6 +213,7 @@ class SphereWall {
     int key = -1;
     contact::TangentialHistory history;
     bool used = false;
+    bool of_point = false;
     // Where the wall wears by impacts: how this one began, until the sphere no longer comes closer.
     double speed = 0.0, angle = 0.0;  // [m/s], from the surface [rad]
     bool approaching = false;
@@ -220,6 +224,7 @@ class SphereWall {
     static void visit(Self& self, Archive& archive) {
       archive("n", self.n)("point", self.point)("key", self.key)("history", self.history);
       archive("speed", self.speed)("angle", self.angle)("approaching", self.approaching);
+      archive("of_point", self.of_point);
     }
   };
   struct Pressing {
@@ -237,18 +242,25 @@ class SphereWall {
     double deepest = 0.0;  // [m]
     double force = 0.0;    // [N]
     int part = 0;
+    bool of_point = false;
   };
   const std::vector<Spot>& find_spots(const Wall& wall);
-  [[nodiscard]] std::span<const char> mask_of(const Wall& wall, int part);
-  [[nodiscard]] wear::OverlapField overlap_field(const Wall& wall, double R, double deepest) const;
+  [[nodiscard]] std::span<const char> mask_of(const Wall& wall, int part, bool of_point);
+  [[nodiscard]] wear::OverlapField overlap_field(double R, double deepest, bool of_point) const;
   void shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair, bool due);
   void press(wear::WearingTip& tip, const Wall& wall, const Spot& spot, double d_e);
   void deposit_one(Wall& wall, const Touch& touch, double dV, double R, const contact::PairProperties& pair);
   bool deposit_inside(Wall& wall, const Touch& touch, double dV, double R,
                       const contact::PairProperties& pair);
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
+  void touch_patches(double R, std::span<const contact::Patch> patches);
+  void touch_points(const Wall& wall, double R, const contact::PairProperties& pair,
+                    std::span<const contact::PointContact> points);
+  void touch_either(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
+  void note_width();
+  [[nodiscard]] bool by_patches(const Wall& wall) const noexcept;
   Memory& recall(const Touch& touch, ContactRule rule);
-  static void watch_impact(Memory& memory, const Vec3& n, const Vec3& v) noexcept;
+  void watch_impact(Memory& memory, const Touch& touch, const Vec3& v) noexcept;
   [[nodiscard]] static wear::WorkSample work_of(const Touch& touch, double slip, double mass,
                                                 const contact::PairProperties& pair, double dt) noexcept;
   static void add_strike(const wear::Laws& laws, const Memory& memory, double R, double mass,
@@ -269,6 +281,7 @@ class SphereWall {
   std::vector<Spot> spots_;
   std::vector<Memory> memory_, kept_;
   std::vector<char> mask_;
+  double narrowest_ = 0.0;            // `automatic`: least width of the candidates as they were gathered [m]
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
   bool stale_ = true;                 // the candidates were gathered anew in this step
   double reach_ = 0.0;

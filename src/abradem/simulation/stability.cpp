@@ -35,8 +35,8 @@ void Simulation::watch_stability() {
       const auto& properties = pair(particles_.material[p], walls_[w].material());
       for (const SphereWall::Touch& t : sphere_walls_[p * walls_.size() + w].touches()) {
         const double S = contact::step_stiffness(properties, t.a);
-        stiffness += S;
-        damping += contact::step_damping(properties, S, particles_.mass[p]);
+        stiffness += t.weight * S;
+        damping += t.weight * contact::step_damping(properties, S, particles_.mass[p]);
         ++contacts;
       }
     }

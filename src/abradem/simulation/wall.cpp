@@ -3,15 +3,20 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "abradem/core/error.h"
 #include "abradem/geometry/generators.h"
 
 namespace abradem::simulation {
 
-using std::numbers::pi;
+void place(geometry::TriangleMesh& mesh, const MeshSetup& setup) noexcept {
+  if (setup.rotation != Vec3{}) {
+    const geometry::Pose x = geometry::rotation_pose({1.0, 0.0, 0.0}, {}, setup.rotation.x, 0.0),
+                         y = geometry::rotation_pose({0.0, 1.0, 0.0}, {}, setup.rotation.y, 0.0),
+                         z = geometry::rotation_pose({0.0, 0.0, 1.0}, {}, setup.rotation.z, 0.0);
+    for (Vec3& p : mesh.vertices) p = z.turn(y.turn(x.turn(p)));
+  }
+  for (Vec3& p : mesh.vertices) p += setup.position;
+}
 
 geometry::TriangleMesh generate_mesh(const MeshSetup& mesh, std::uint64_t seed) {
   geometry::TriangleMesh made;
@@ -31,13 +36,18 @@ geometry::TriangleMesh generate_mesh(const MeshSetup& mesh, std::uint64_t seed) 
     case MeshShape::plane:
       throw InputError("an analytic plane has no mesh");
   }
-  for (Vec3& p : made.vertices) p += mesh.position;
+  place(made, mesh);
   return made;
 }
 
 Wall::Wall(const WallSetup& setup, int material, const MeshSource& source, std::uint64_t seed)
     : setup_(setup), material_(material) {
   setup_.motion.axis = normalized(setup_.motion.axis);
+  for (MotionSetup& m : setup_.carried_by) m.axis = normalized(m.axis);
+  for (std::size_t k = 0; k < setup_.motions(); ++k)
+    if (const auto problem = problem_of_table(setup_.motion_at(k)))
+      throw InputError(fmt::format("wall '{}', row {} of the table of its motion: {}", setup.name,
+                                   problem->row + 1, problem->what));
   setup_.mesh.normal = normalized(setup_.mesh.normal);
   if (setup.mesh.shape == MeshShape::plane) return;
   try {
@@ -50,35 +60,6 @@ Wall::Wall(const WallSetup& setup, int material, const MeshSource& source, std::
 
 contact::SurfaceView Wall::view() const noexcept {
   return {surface_->mesh(), grid_, surface_->revision(), surface_->odometer(), surface_->deepest_sink()};
-}
-
-geometry::Pose Wall::pose_at(double time) const noexcept {
-  const MotionSetup& m = setup_.motion;
-  geometry::Pose pose;
-  switch (m.kind) {
-    case MotionKind::none:
-      break;
-    case MotionKind::rotation:
-      return geometry::rotation_pose(m.axis, m.center, m.rate * time, m.rate);
-    case MotionKind::translation:
-      pose.shift = time * m.velocity;
-      pose.velocity = m.velocity;
-      break;
-    case MotionKind::oscillation: {
-      const double omega = 2.0 * pi * m.frequency;
-      pose.shift = std::sin(omega * time) * m.amplitude;
-      pose.velocity = omega * std::cos(omega * time) * m.amplitude;
-      break;
-    }
-  }
-  return pose;
-}
-
-std::optional<double> Wall::period() const noexcept {
-  const MotionSetup& m = setup_.motion;
-  if (m.kind == MotionKind::rotation && m.rate != 0.0) return 2.0 * pi / std::abs(m.rate);
-  if (m.kind == MotionKind::oscillation && m.frequency > 0.0) return 1.0 / m.frequency;
-  return std::nullopt;
 }
 
 }  // namespace abradem::simulation

@@ -9,6 +9,7 @@
 #include "abradem/geometry/pose.h"
 #include "abradem/geometry/triangle_grid.h"
 #include "abradem/simulation/setup.h"
+#include "abradem/simulation/wall_motion.h"
 #include "abradem/wear/wearing_surface.h"
 
 namespace abradem::simulation {
@@ -16,7 +17,10 @@ namespace abradem::simulation {
 /// Supplies the mesh of a wall in its own frame [m]; files are the business of whoever calls.
 using MeshSource = std::function<geometry::TriangleMesh(const MeshSetup&, std::uint64_t seed)>;
 
-/// Meshes the generated shapes. @throws InputError for `file` and `plane`, which have none
+/// Turns and shifts a mesh to where the case puts it.
+void place(geometry::TriangleMesh& mesh, const MeshSetup& setup) noexcept;
+
+/// Meshes the generated shapes, in their places. @throws InputError for `file` and `plane`, which have none
 [[nodiscard]] geometry::TriangleMesh generate_mesh(const MeshSetup& mesh, std::uint64_t seed);
 
 /// A wall: a surface in its own frame that wears, and a rigid motion that carries it. Particles are brought
@@ -35,7 +39,9 @@ class Wall {
   [[nodiscard]] contact::SurfaceView view() const noexcept;
 
   /// Pose at a time. Closed form of the time, so that it never drifts.
-  [[nodiscard]] geometry::Pose pose_at(double time) const noexcept;
+  [[nodiscard]] geometry::Pose pose_at(double time) const noexcept {
+    return pose_of(setup_, setup_.motions(), time);
+  }
   /// Does its surface run over it, as a belt does?
   [[nodiscard]] bool is_belt() const noexcept { return setup_.motion.surface_velocity != Vec3{}; }
   /// Velocity of the belt where the wall's normal is n, in the wall's frame: along the surface, at its full
@@ -52,7 +58,7 @@ class Wall {
   void watch_impacts() noexcept { watches_impacts_ = true; }
   [[nodiscard]] bool watches_impacts() const noexcept { return watches_impacts_; }
   /// Time of one turn or one cycle [s]; none for a wall that does neither.
-  [[nodiscard]] std::optional<double> period() const noexcept;
+  [[nodiscard]] std::optional<double> period() const noexcept { return period_of(setup_); }
 
  private:
   WallSetup setup_;

@@ -17,23 +17,16 @@ namespace {
 
 constexpr double kDeepest = 0.1;  // of the radius: Hertz's small contact is long gone
 
-/// Fastest that a point of the wall can be within `extent` of the scene [m/s], its belt left out.
-double fastest_point(const MotionSetup& motion, double extent) {
-  switch (motion.kind) {
-    case MotionKind::none:
-      break;
-    case MotionKind::rotation:
-      return std::abs(motion.rate) * (extent + norm(motion.center));
-    case MotionKind::translation:
-      return norm(motion.velocity);
-    case MotionKind::oscillation:
-      return 2.0 * std::numbers::pi * motion.frequency * norm(motion.amplitude);
+/// Fastest that a point of the wall can be within `extent` of the scene [m/s], its belt included.
+double fastest(const WallSetup& wall, double extent) {
+  double sum = norm(wall.motion.surface_velocity), displaced = 0.0;
+  for (std::size_t k = 0; k < wall.motions(); ++k)
+    if (const double d = limits_of(wall.motion_at(k)).displacement; std::isfinite(d)) displaced += d;
+  for (std::size_t k = 0; k < wall.motions(); ++k) {
+    const MotionLimits most = limits_of(wall.motion_at(k));
+    sum += most.speed + most.rate * (extent + displaced + norm(wall.motion_at(k).center));
   }
-  return 0.0;
-}
-
-double fastest(const MotionSetup& motion, double extent) {
-  return fastest_point(motion, extent) + norm(motion.surface_velocity);
+  return sum;
 }
 
 /// What rounding of its nodes' coordinates may change of the volume that a surface swept [m^3]: a node is
@@ -82,7 +75,7 @@ void Simulation::limit_energies() {
     double way = particles_.guide[p] != Vec3{} ? 2.0 * R : extent + 2.0 * R;
     if (!bounded && particles_.guide[p] == Vec3{}) way += start * end_ + 0.5 * force / m * end_ * end_;
     double hit = start;
-    for (const Wall& wall : walls_) hit = std::max(hit, 2.0 * fastest(wall.setup().motion, extent));
+    for (const Wall& wall : walls_) hit = std::max(hit, 2.0 * fastest(wall.setup(), extent));
     energy_limit_[p] = kExplosion * (0.5 * m * hit * hit + force * way);
     double stored = 0.0;  // in a contact that starts as deep as it may, or is drawn together so far
     const auto contact_with = [&](int material) {
@@ -142,7 +135,7 @@ void Simulation::limit_bulk_energy(Vec3 low, Vec3 high, bool bounded) {
     include(setup_.domain->high);
   }
   const double extent = norm(high - low);
-  for (const Wall& wall : walls_) hit = std::max(hit, 2.0 * fastest(wall.setup().motion, extent));
+  for (const Wall& wall : walls_) hit = std::max(hit, 2.0 * fastest(wall.setup(), extent));
   double way = extent;
   if (!bounded && !setup_.domain) way += hit * end_ + 0.5 * pull * end_ * end_;
   bulk_->limit_speed(std::sqrt(2.0 * kExplosion * (0.5 * hit * hit + pull * way + elastic)));

@@ -97,8 +97,7 @@ class Calibrator {
           "a calibration needs a measured volume > 0: give the case [measurement] with wear_volume = { "
           "mean = \"0.565 mm^3\", sd = \"0.089 mm^3\" }");
     if (std::ranges::none_of(setup_.walls, [](const simulation::WallSetup& w) {
-          return w.motion.kind == simulation::MotionKind::rotation ||
-                 w.motion.kind == simulation::MotionKind::oscillation;
+          return simulation::cyclic_motion(w) != nullptr;
         }))
       throw InputError("a calibration needs a wall that turns or oscillates: wear is counted in revolutions");
     if (!(options_.coverage > 0.0 && options_.coverage < 1.0))

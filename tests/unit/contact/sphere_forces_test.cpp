@@ -112,7 +112,7 @@ TEST_P(SphereForces, AreThoseOfTheLawPairByPairWhileTheOrderChanges) {
   Spheres spheres = crowd(1500, 7);  // two blocks, so that there are far pairs
   SphereList list;
   AllPairs reference;
-  std::vector<LoadRow> load;
+  LoadRows load;
   double worst = 0.0;
   for (int step = 0; step < 40; ++step) {
     if (step % 8 == 0) list.rebuild(spheres, kSkin);
@@ -132,7 +132,7 @@ TEST_P(SphereForces, AreThoseOfTheLawPairByPairWhileTheOrderChanges) {
     advance_spheres(spheres.row, load, {0.0, 0.0, -9.81}, kDt);
   }
   EXPECT_GT(reference.springs.size(), 1000u);
-  EXPECT_GT(list.far_target.size(), 50u);
+  EXPECT_GT(list.guest.size(), 50u);
   EXPECT_LT(worst, 1e-12);  // round-off of another order of operations, over 40 steps
   RecordProperty("largest_error", std::to_string(worst));
 }
@@ -146,7 +146,7 @@ TEST(SphereForces, WithOptionsThatAreOffAreThoseWithout) {
     Spheres a = crowd(1500, 7), b = a;
     SphereList of_a, of_b;
     of_b.remember_torques();
-    std::vector<LoadRow> on_a, on_b;
+    LoadRows on_a, on_b;
     for (int step = 0; step < 30; ++step) {
       if (step % 8 == 0) of_a.rebuild(a, kSkin), of_b.rebuild(b, kSkin);
       ASSERT_TRUE(sphere_forces(a, of_a, plain, kDt, on_a));
@@ -170,14 +170,14 @@ TEST(SphereForces, WithOptionsActOnBothAndDoNotDependOnThreadsOrOrder) {
   properties[1].options.cohesion = properties[2].options.cohesion = 1e4;
   PairTable table = table_of(properties);
   table.options = table.adhesion = true;
-  std::vector<LoadRow> first;
+  LoadRows first;
   const int before = omp_get_max_threads();
   for (const int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
     Spheres spheres = crowd(4000, 3);
     SphereList list;
     list.remember_torques();
-    std::vector<LoadRow> load;
+    LoadRows load;
     for (int step = 0; step < 20; ++step) {
       if (step % 7 == 0) list.rebuild(spheres, kSkin);
       ASSERT_TRUE(sphere_forces(spheres, list, table, kDt, load));
@@ -185,6 +185,7 @@ TEST(SphereForces, WithOptionsActOnBothAndDoNotDependOnThreadsOrOrder) {
     }
     Vec3 sum;
     double largest = 0.0;
+    load.resize(spheres.size());  // without the rows of guests
     for (const LoadRow& l : load) sum += l.force(), largest = std::max(largest, norm(l.force()));
     EXPECT_GT(largest, 0.0);
     EXPECT_LT(norm(sum), 1e-10 * largest);
@@ -199,14 +200,14 @@ TEST(SphereForces, WithOptionsActOnBothAndDoNotDependOnThreadsOrOrder) {
 
 TEST(SphereForces, AreTheSameBitsForAnyNumberOfThreads) {
   const PairTable table = table_of(two_materials(0.02));
-  std::vector<LoadRow> first;
+  LoadRows first;
   const int before = omp_get_max_threads();
   for (const int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
     Spheres spheres = crowd(4000, 3);
     SphereList list;
     list.rebuild(spheres, kSkin);
-    std::vector<LoadRow> load;
+    LoadRows load;
     for (int step = 0; step < 5; ++step) {
       ASSERT_TRUE(sphere_forces(spheres, list, table, kDt, load));
       advance_spheres(spheres.row, load, {}, kDt);
@@ -227,7 +228,7 @@ TEST(SphereForces, ReportAnOverlapBeyondTheLaw) {
   spheres.row[1].set_position({0.89 * (spheres.row[0].radius + spheres.row[1].radius), 0, 0});
   SphereList list;
   list.rebuild(spheres, kSkin);
-  std::vector<LoadRow> load;
+  LoadRows load;
   EXPECT_FALSE(sphere_forces(spheres, list, table, kDt, load));
 }
 
@@ -237,12 +238,13 @@ TEST(SphereList, HoldsThePairsWithinTheSkinAndNoOthers) {
   SphereList list;
   list.rebuild(spheres, kSkin);
   std::set<std::pair<int, int>> listed;
-  for (std::size_t k = 0; k < list.pairs(); ++k) {
-    EXPECT_LT(list.owner[k], list.partner[k]);
-    const int a = spheres.id[static_cast<std::size_t>(list.owner[k])],
-              b = spheres.id[static_cast<std::size_t>(list.partner[k])];
+  list.for_each_near([&](const ContactBlock& block, std::size_t k) {
+    EXPECT_LT(block.i[k], block.j[k]);
+    const int a = spheres.id[static_cast<std::size_t>(block.i[k])],
+              b = spheres.id[static_cast<std::size_t>(block.j[k])];
     EXPECT_TRUE(listed.insert({std::min(a, b), std::max(a, b)}).second);
-  }
+  });
+  EXPECT_EQ(listed.size(), list.pairs());
   std::size_t near = 0;
   for (std::size_t i = 0; i < spheres.size(); ++i)
     for (std::size_t j = i + 1; j < spheres.size(); ++j) {
@@ -260,20 +262,19 @@ TEST(SphereList, TakesOutThoseThatAreGoneAndKeepsTheOthersSprings) {
   Spheres spheres = crowd(300, 5);
   SphereList list;
   list.rebuild(spheres, kSkin);
-  std::vector<LoadRow> load;
+  LoadRows load;
   for (int step = 0; step < 3; ++step) {
     ASSERT_TRUE(sphere_forces(spheres, list, table, kDt, load));
     advance_spheres(spheres.row, load, {}, kDt);
   }
   const auto springs = [&] {
     std::map<std::pair<int, int>, Vec3> all;
-    for (std::size_t k = 0; k < list.pairs(); ++k) {
-      if (list.touching[k] == 0) continue;
-      const int a = spheres.id[static_cast<std::size_t>(list.owner[k])],
-                b = spheres.id[static_cast<std::size_t>(list.partner[k])];
-      const Vec3 s{list.spring[k].x, list.spring[k].y, list.spring[k].z};
-      all[{std::min(a, b), std::max(a, b)}] = a < b ? s : -s;
-    }
+    list.for_each_near([&](const ContactBlock& block, std::size_t k) {
+      if (block.touching[k] == 0) return;
+      const int a = spheres.id[static_cast<std::size_t>(block.i[k])],
+                b = spheres.id[static_cast<std::size_t>(block.j[k])];
+      all[{std::min(a, b), std::max(a, b)}] = a < b ? block.spring(k) : -block.spring(k);
+    });
     return all;
   };
   auto before = springs();

@@ -19,11 +19,13 @@ using Json = nlohmann::json;
 const Json& section_of(const Json& schema, std::string_view path) {
   const Json* node = &schema;
   std::istringstream words{std::string(path)};
-  for (std::string word; std::getline(words, word, '.');)
+  for (std::string word; std::getline(words, word, '.');) {
+    if (node->contains("anyOf")) node = &node->at("anyOf").at(0);  // one, or a list of them
     node = word != "*"               ? &node->at("properties").at(word)
            : node->contains("items") ? &node->at("items")
                                      : &node->at("additionalProperties");
-  return *node;
+  }
+  return node->contains("anyOf") ? node->at("anyOf").at(0) : *node;
 }
 
 TEST(CaseJsonSchema, KnowsEveryKeyAndRefusesOthers) {
@@ -41,7 +43,8 @@ TEST(CaseJsonSchema, KnowsEveryKeyAndRefusesOthers) {
 TEST(CaseJsonSchema, StatesChoicesDefaultsAndWhatIsRequired) {
   const Json schema = Json::parse(case_json_schema());
   const Json& wall = section_of(schema, "wall.*");
-  EXPECT_EQ(wall.at("properties").at("contact").at("enum"), Json({"patch", "resolved", "per_triangle"}));
+  EXPECT_EQ(wall.at("properties").at("contact").at("enum"),
+            Json({"patch", "resolved", "per_triangle", "auto"}));
   EXPECT_EQ(wall.at("properties").at("contact").at("default"), "patch");
   EXPECT_EQ(wall.at("required"), Json({"material", "mesh"}));
   EXPECT_EQ(schema.at("required"), Json({"schema", "material", "wall", "run"}));

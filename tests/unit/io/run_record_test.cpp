@@ -18,6 +18,7 @@ simulation::Setup setup_with(std::initializer_list<MotionKind> motions) {
     WallSetup wall;
     wall.motion.kind = kind;
     wall.motion.rate = 1.0;
+    wall.motion.frequency = 1.0;
     setup.walls.push_back(wall);
   }
   return setup;
