@@ -3,6 +3,7 @@
 // in is accounted for, and where a wall wears the ledger closes.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "abradem/io/csv.h"
@@ -52,7 +53,47 @@ INSTANTIATE_TEST_SUITE_P(
         ReadyCase{"rotating-drum",
                   "--set insertion.charge.number=60 --set run.end='0.07 rev' --set output.every='0.01 rev'",
                   true},
-        ReadyCase{"angle-of-repose", "--set run.end='0.12 s' --set output.every='20 ms'"}));
+        ReadyCase{"angle-of-repose", "--set run.end='0.12 s' --set output.every='20 ms'"},
+        ReadyCase{"pebbles", "--set run.end='0.1 s' --set output.every='20 ms'"}));
+
+/// Fitted shapes are part of a checkpoint: a run goes on without the mesh to the bits of one that never
+/// stopped.
+TEST(Pebbles, GoOnWithoutTheirMesh) {
+  const ScratchFolder scratch;
+  const fs::path cases = ABRADEM_SOURCE_DIR "/cases";
+  fs::create_directories(scratch.path() / "meshes");
+  fs::copy_file(cases / "pebbles.toml", scratch.path() / "pebbles.toml");
+  fs::copy_file(cases / "meshes/pebble.obj", scratch.path() / "meshes/pebble.obj");
+  const std::string set = " --quiet --set output.every='10 ms' --set run.end=";
+  const Outcome whole = run_program("run pebbles.toml -o whole" + set + "'40 ms'", scratch.path());
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  ASSERT_EQ(run_program("run pebbles.toml -o part" + set + "'20 ms'", scratch.path()).exit_code, 0);
+  fs::remove(scratch.path() / "meshes/pebble.obj");
+  const Outcome rest = run_program("resume part --quiet --set run.end='40 ms'", scratch.path());
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  const json record = json::parse(read_file(scratch.path() / "part/run.json"));
+  EXPECT_EQ(record["state_hash"], json::parse(read_file(scratch.path() / "whole/run.json"))["state_hash"]);
+  EXPECT_NE(record["setup"]["Shape 'pebble'"].get<std::string>().find("8 spheres for a solid of 49.33 mm^3"),
+            std::string::npos);
+  const std::string frame = read_file(scratch.path() / "whole/vtk/particles_0004.vtp");
+  EXPECT_NE(frame.find("Name=\"clump\""), std::string::npos);
+  EXPECT_NE(frame.find("Name=\"orientation\""), std::string::npos);
+}
+
+TEST(Pebbles, NeedAClosedMesh) {
+  const ScratchFolder scratch;
+  std::string mesh = read_file(ABRADEM_SOURCE_DIR "/cases/meshes/pebble.obj");
+  mesh.resize(mesh.rfind("f "));
+  std::ofstream(scratch.path() / "open.obj") << mesh;
+  const Outcome outcome = run_program("run " ABRADEM_SOURCE_DIR
+                                      "/cases/pebbles.toml --quiet -o out --set shape.pebble.fit.file=\"'" +
+                                          (scratch.path() / "open.obj").string() + "'\"",
+                                      scratch.path());
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("shape 'pebble': the mesh"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("is not closed (3 open edges"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(scratch.path() / "out"));
+}
 
 /// Every grain strikes once, what the laws take leaves the mesh, and the report draws it.
 TEST(ImpactPlate, RunsToItsEnd) {

@@ -21,7 +21,8 @@ inline simulation::Setup checkpoint_case() {
   return setup;
 }
 
-/// The same for particles in numbers: on a mesh and beside a plane, under a named one, and more that come in.
+/// The same for particles in numbers: on a mesh and beside a plane, under a named one, and clumps that come
+/// in.
 inline simulation::Setup grains_checkpoint_case() {
   simulation::Setup setup = checkpoint_case();
   setup.contacts.push_back({"iron_ore", "iron_ore", 0.5, 0.4, 0.02});
@@ -43,6 +44,8 @@ inline simulation::Setup grains_checkpoint_case() {
   setup.particles[0].position = {0.18e-3, 0.0, 1.18e-3};
   setup.insertions[1].name = "fed";
   setup.insertions[1].size.radius = 0.4e-3;
+  setup.insertions[1].shape = "pair";
+  setup.shapes = {{"pair", {{{}, 1.0}, {{1.0, 0.0, 0.0}, 0.8}}, {}}};
   setup.insertions[1].volume.low = {4e-3, -1e-3, 1e-3};
   setup.insertions[1].volume.high = {6e-3, 1e-3, 3e-3};
   setup.insertions[1].number = 8;

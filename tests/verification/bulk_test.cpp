@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <string>
 
 #include "support/grains.h"
 
@@ -35,6 +37,46 @@ TEST(Bulk, ClosedSystemKeepsMomentumAndEnergy) {
   const double error = std::abs(end.kinetic_energy + end.elastic_energy - energy) / energy;
   EXPECT_LT(error, 2e-3);  // second order in the step, of which an impact takes some tens
   RecordProperty("energy_error", std::to_string(error));
+}
+
+/// Two grains of two insertions, of different material and size, meet head-on without damping: Hertz's
+/// overlap and time with E_eff, R_eff and m_eff of the pair, and the velocities of an elastic impact.
+TEST(Bulk, GrainsOfTwoMaterialsMeetAsHertzSays) {
+  simulation::Setup setup = grains(1.0, 0.0, 0.0);
+  setup.walls = {plane("floor", {0, 0, -1}, {0, 0, 1})};
+  setup.materials.push_back({"ore", 4500.0, 3e7, 0.35, {}});
+  setup.contacts.push_back({"ore", "grain", 1.0, 0.0, 0.0});
+  setup.contacts.push_back({"ore", "ore", 0.1, 0.9, 0.1});  // none of theirs
+  const double R1 = 3e-3, R2 = 2e-3, v = 0.2;
+  setup.insertions[0].placed = {{{0, 0, 0}, R1, {v, 0, 0}}};
+  setup.insertions.push_back(setup.insertions[0]);
+  setup.insertions[1].name = "ore";
+  setup.insertions[1].material = "ore";
+  setup.insertions[1].placed = {{{R1 + R2 + 1e-6, 0, 0}, R2, {}}};
+  setup.run.time_step = {0.01, true};
+  Simulation run(setup);
+  const auto speed = [&](int id) {
+    const contact::Spheres& s = run.bulk()->spheres();
+    return s.row[s.id[0] == id ? 0 : 1].vx;
+  };
+  double deepest = 0.0;
+  int steps = 0;
+  while (run.bulk_state().pair_contacts == 0) run.step();
+  for (; run.bulk_state().pair_contacts > 0; run.step(), ++steps)
+    deepest = std::max(deepest, run.bulk_state().elastic_energy);
+  const auto mass = [](double density, double R) {
+    return density * 4.0 / 3.0 * std::numbers::pi * R * R * R;
+  };
+  const double m1 = mass(2500.0, R1), m2 = mass(4500.0, R2), m = m1 * m2 / (m1 + m2), R = R1 * R2 / (R1 + R2);
+  const double E = 1.0 / ((1.0 - 0.25) / (2.0 * 1e7) + (1.0 - 0.35) / (2.0 * 3e7));  // (1 - nu^2) / E of each
+  const double overlap = std::pow(15.0 * m * v * v / (16.0 * E * std::sqrt(R)), 0.4);
+  EXPECT_NEAR(deepest / (0.5 * m * v * v), 1.0, 1e-3);
+  EXPECT_NEAR(steps * run.time_step() / (2.9432751 * overlap / v), 1.0, 1e-2);  // some 250 steps
+  RecordProperty("energy_error", std::to_string(1e6 * (deepest / (0.5 * m * v * v) - 1.0)) + "e-6");
+  RecordProperty("time_error", std::to_string(steps * run.time_step() / (2.9432751 * overlap / v) - 1.0));
+  RecordProperty("speed_error", std::to_string(1e6 * (speed(0) / v - (m1 - m2) / (m1 + m2))) + "e-6");
+  EXPECT_NEAR(speed(0) / v, (m1 - m2) / (m1 + m2), 1e-4);
+  EXPECT_NEAR(speed(1) / v, 2.0 * m1 / (m1 + m2), 1e-4);
 }
 
 TEST(Bulk, FrictionAndDampingOnlyTakeEnergy) {

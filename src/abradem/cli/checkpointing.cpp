@@ -23,13 +23,15 @@ double between(std::chrono::steady_clock::time_point from, std::chrono::steady_c
 }  // namespace
 
 RunInputs inputs_of(const simulation::Simulation& run, std::string resolved_case) {
-  RunInputs inputs{std::move(resolved_case), {}, {}, {}};
+  RunInputs inputs{std::move(resolved_case), {}, {}, {}, {}};
   for (const simulation::Wall& wall : run.walls())
     if (!wall.is_plane())
       inputs.meshes.push_back({{wall.surface().reference().begin(), wall.surface().reference().end()},
                                wall.surface().mesh().triangles});
   for (const simulation::InsertionSetup& i : run.setup().insertions)
     inputs.insertions.push_back({i.placed, i.size.radii, i.size.shares});
+  for (const simulation::ShapeSetup& shape : run.setup().shapes)
+    inputs.shapes.push_back(shape.fit ? ShapeInputs{shape.fit->fit, shape.fit->solid} : ShapeInputs{});
   for (const simulation::WallSetup& wall : run.setup().walls) {
     auto& tables = inputs.motions.emplace_back();
     for (std::size_t k = 0; k < wall.motions(); ++k) tables.push_back(wall.motion_at(k).rows);

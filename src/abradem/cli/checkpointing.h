@@ -41,17 +41,30 @@ struct InsertionInputs {
   }
 };
 
+/// What a shape took from a file.
+struct ShapeInputs {
+  geometry::SphereFit fit;
+  geometry::MassProperties solid;
+
+  template <typename Self, typename Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("fit", self.fit)("solid", self.solid);
+  }
+};
+
 /// What a run is made of, as text, meshes and tables; it stays the same while the run goes on.
 struct RunInputs {
   std::string resolved_case;
   std::vector<geometry::TriangleMesh> meshes;  ///< of the walls that have one, as they began
   std::vector<InsertionInputs> insertions;     ///< of each insertion
+  std::vector<ShapeInputs> shapes;             ///< of each shape
   /// Tables of each motion of each wall.
   std::vector<std::vector<std::vector<simulation::MotionRow>>> motions;
 
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
     archive("resolved_case", self.resolved_case)("meshes", self.meshes)("insertions", self.insertions);
+    archive("shapes", self.shapes);
     archive("motions", self.motions);
   }
 };

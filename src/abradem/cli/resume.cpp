@@ -88,6 +88,12 @@ Resumed put_back(const io::Checkpoint& checkpoint, const fs::path& folder,
     setup.insertions[i].size.radii = inputs.insertions[i].radii;
     setup.insertions[i].size.shares = inputs.insertions[i].shares;
   }
+  archive.require(inputs.shapes.size() == setup.shapes.size(), "comes after other shapes");
+  for (std::size_t i = 0; i < setup.shapes.size(); ++i) {
+    if (!setup.shapes[i].fit) continue;
+    setup.shapes[i].fit->fit = inputs.shapes[i].fit;
+    setup.shapes[i].fit->solid = inputs.shapes[i].solid;
+  }
   archive.require(inputs.motions.size() == setup.walls.size(), "comes after other walls");
   for (std::size_t w = 0; w < setup.walls.size(); ++w) {
     simulation::WallSetup& wall = setup.walls[w];

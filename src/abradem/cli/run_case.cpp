@@ -44,6 +44,8 @@ void announce(const Simulation& run, RunLog& log) {
       log.line(fmt::format("wall '{}': {} triangles, mean edge {:.4g} mm", wall.setup().name,
                            wall.surface().mesh().triangle_count(),
                            1e3 * geometry::mean_edge_length(wall.surface().mesh())));
+  for (const simulation::ShapeSetup& shape : run.setup().shapes)
+    log.line(fmt::format("shape '{}': {}", shape.name, io::shape_text(shape)));
   if (!run.setup().insertions.empty())
     log.line(fmt::format("{} particles in numbers at the start", run.bulk_state().present));
   log.line(fmt::format("{} steps of {:.4g} s, {} per output", run.total_steps(), run.time_step(),

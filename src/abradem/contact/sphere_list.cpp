@@ -147,6 +147,10 @@ void SphereList::sort_along_curve(Spheres& spheres, double cell) {
       kBlock);
   spheres.row.swap(sorted.row);
   spheres.id.swap(sorted.id);
+  if (!spheres.clump.empty()) {
+    for (const std::int32_t was : was_) sorted.clump.push_back(spheres.clump[at(was)]);
+    spheres.clump.swap(sorted.clump);
+  }
 
   const std::size_t total = at(nx_) * at(ny_) * at(nz_);
   cell_begin_.assign(total, 0);
@@ -178,6 +182,7 @@ void SphereList::find_pairs(const Spheres& spheres, double skin) {
                          cz = cell(s.z - origin_.z, cell_.z, nz_);
       const std::size_t row = list.size();
       const double reach = s.radius + skin;
+      const std::int32_t clump = spheres.clump.empty() ? -1 : spheres.clump[i];
       // One cell further than the last is, where space is periodic, the first one's image.
       const auto first = [](std::int32_t c, double period) {
         return period > 0.0 ? c - 1 : std::max(c - 1, 0);
@@ -202,7 +207,8 @@ void SphereList::find_pairs(const Spheres& spheres, double skin) {
               const SphereRow& o = spheres.row[at(j)];
               const double dx = s.x - o.x + sx, dy = s.y - o.y + sy, dz = s.z - o.z + sz,
                            r = reach + o.radius;
-              if (dx * dx + dy * dy + dz * dz < r * r) list.push_back(j);
+              if (dx * dx + dy * dy + dz * dz < r * r && (clump < 0 || spheres.clump[at(j)] != clump))
+                list.push_back(j);
             }
           }
       std::sort(list.begin() + static_cast<std::ptrdiff_t>(row), list.end());

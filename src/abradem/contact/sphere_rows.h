@@ -55,11 +55,13 @@ using LoadRows = std::vector<LoadRow, core::LargePages<LoadRow>>;
 struct Spheres {
   SphereRows row;
   std::vector<std::int32_t> id;  ///< < 0: to be taken out at the next rebuild
+  /// Which clump each belongs to; spheres of one do not touch one another. < 0: none; empty: no sphere does.
+  std::vector<std::int32_t> clump;
   [[nodiscard]] std::size_t size() const noexcept { return row.size(); }
 
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
-    archive("row", self.row)("id", self.id);
+    archive("row", self.row)("id", self.id)("clump", self.clump);
   }
 };
 

@@ -67,6 +67,7 @@ class Checker {
     check_regions();
     for (const WallSetup& wall : setup_.walls) check_wall(wall);
     for (const ParticleSetup& particle : setup_.particles) check_particle(particle);
+    check_shapes();
     check_insertions();
     check_run();
     check_acceleration();
@@ -173,6 +174,31 @@ class Checker {
                         fmt::format("particles of insertions '{}' and '{}'", other.name, insertion.name));
   }
 
+  void check_shapes() {
+    for (const ShapeSetup& shape : setup_.shapes) {
+      const std::string path = path_of("shape", shape.name);
+      if (!good(path)) continue;
+      if (shape.spheres.empty() == !shape.fit)
+        error(path, shape.fit ? "has both spheres and a fit; give one of them"
+                              : "needs spheres = [{ position = …, radius = … }, …], or a fit to a mesh file");
+      if (std::ranges::none_of(setup_.insertions,
+                               [&](const InsertionSetup& i) { return i.shape == shape.name; }) &&
+          good("insertion"))
+        note(path, "no insertion uses this shape");
+    }
+    std::vector<std::string_view> known;
+    for (const ShapeSetup& shape : setup_.shapes) known.emplace_back(shape.name);
+    for (const InsertionSetup& i : setup_.insertions) {
+      const std::string path = path_of("insertion", i.name) + ".shape";
+      if (i.shape.empty() || !good(path) || !good("shape") ||
+          std::ranges::find(known, i.shape) != known.end())
+        continue;
+      const std::string nearest = core::nearest_spelling(i.shape, known);
+      error(path, nearest.empty() ? fmt::format("no shape '{}'; add [{}]", i.shape, path_of("shape", i.shape))
+                                  : fmt::format("no shape '{}'; did you mean '{}'?", i.shape, nearest));
+    }
+  }
+
   void check_insertions() {
     if (setup_.particles.empty() && setup_.insertions.empty() && good("particle") && good("insertion"))
       error("", "the case has no particles: add a [particle.NAME], or an [insertion.NAME] for many");
@@ -209,7 +235,8 @@ class Checker {
   }
   void check_drawn(const InsertionSetup& i, const std::string& path) {
     const SizeSetup& size = i.size;
-    if (size.kind == SizeKind::single && !(size.radius > 0.0) && good(path + ".size.radius"))
+    if (size.kind == SizeKind::single && !(size.radius > 0.0) && i.shape.empty() &&
+        good(path + ".size.radius"))
       error(path, "needs a size, such as size = { radius = \"3 mm\" }");
     if (good(path + ".number") && good(path + ".mass") && (i.number == 0) == !i.mass)
       error(path, i.mass ? "has both a number and a mass; give one of them"

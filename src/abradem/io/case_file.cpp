@@ -292,6 +292,8 @@ simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems&
     made_absolute(insertion.size.file);
     made_absolute(insertion.volume.file);
   }
+  for (simulation::ShapeSetup& shape : setup.shapes)
+    if (shape.fit) made_absolute(shape.fit->file);
   if (setup.study) made_absolute(setup.study->published);
   // A named pin was measured with patches; a plant's walls have triangles of any size.
   if (!setup.insertions.empty() && setup.particles.empty())

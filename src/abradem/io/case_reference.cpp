@@ -114,7 +114,9 @@ std::string case_reference_markdown() {
       "dimensionless. Every component of a vector may carry its own unit. Names with `/` or `.` are "
       "quoted.\n";
   for (const Section& section : case_sections()) {
-    out += fmt::format("\n## {}\n\n{} {}\n\n", heading(section), section.doc, presence(section));
+    out += fmt::format("\n## {}\n\n{} {}\n", heading(section), section.doc, presence(section));
+    if (rows_of(section).empty()) continue;
+    out += "\n";
     out += "| Key | Value | Default | Allowed | Meaning | Example |\n|---|---|---|---|---|---|\n";
     for (const Row* row : rows_of(section)) {
       const std::string also = row->also.empty() ? "" : fmt::format(" (or `{}`)", row->also);

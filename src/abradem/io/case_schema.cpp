@@ -49,6 +49,9 @@ Target target_with_defaults() {
     s.particles.emplace_back();
     s.ploughing.emplace();
     s.insertions.emplace_back();
+    s.shapes.emplace_back();
+    s.shapes[0].spheres.emplace_back();
+    s.shapes[0].fit.emplace();
     s.domain.emplace();
     s.measurement.emplace();
     s.measurement->wear_volume.emplace();
@@ -68,7 +71,9 @@ Target target_with_defaults() {
           .region = setup.regions.data(),
           .particle = setup.particles.data(),
           .insertion = setup.insertions.data(),
-          .variation = setup.study->variations.data()};
+          .variation = setup.study->variations.data(),
+          .shape = setup.shapes.data(),
+          .sphere = setup.shapes[0].spheres.data()};
 }
 
 /// { "wall.disc.mesh.size" = ["0.1 mm", "0.2 mm"] }

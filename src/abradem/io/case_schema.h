@@ -33,6 +33,8 @@ struct Target {
   simulation::ParticleSetup* particle = nullptr;
   simulation::InsertionSetup* insertion = nullptr;
   simulation::VariationSetup* variation = nullptr;
+  simulation::ShapeSetup* shape = nullptr;
+  geometry::Ball* sphere = nullptr;
 };
 
 /// An enumeration behind its index in Row::choices.

@@ -107,6 +107,28 @@ const std::array kSections{
             .enter = [](Target& t, std::size_t i) { t.particle = &t.setup->particles[i]; },
             .name = [](const Target& t) { return t.particle->name; },
             .rename = [](const Target& t, const std::string& name) { t.particle->name = name; }},
+    Section{.path = "shape.*",
+            .doc = "What particles in numbers look like that are no spheres: spheres that keep together (a "
+                   "clump), either given or fitted to a closed mesh. Overlaps count once. "
+                   "[More](../theory/clumps.md).",
+            .naming = Naming::name,
+            .count = [](const Target& t) { return t.setup->shapes.size(); },
+            .add = [](const Target& t) { t.setup->shapes.emplace_back(); },
+            .enter = [](Target& t, std::size_t i) { t.shape = &t.setup->shapes[i]; },
+            .name = [](const Target& t) { return t.shape->name; },
+            .rename = [](const Target& t, const std::string& name) { t.shape->name = name; }},
+    Section{.path = "shape.*.spheres.*",
+            .doc = "One sphere of the shape; also written `spheres = [{ position = …, radius = … }, …]`.",
+            .naming = Naming::list,
+            .count = [](const Target& t) { return t.shape->spheres.size(); },
+            .add = [](const Target& t) { t.shape->spheres.emplace_back(); },
+            .enter = [](Target& t, std::size_t i) { t.sphere = &t.shape->spheres[i]; }},
+    Section{.path = "shape.*.fit",
+            .doc = "Spheres in the place of the solid in a mesh file; mass, centre and inertia are those of "
+                   "the solid itself.",
+            .count = [](const Target& t) { return std::size_t{t.shape->fit ? 1u : 0u}; },
+            .add = [](const Target& t) { t.shape->fit.emplace(); },
+            .enter = stay},
     Section{.path = "insertion.*",
             .doc = "Particles in numbers, all of one material: how many, how large, and where they come in.",
             .naming = Naming::name,
@@ -116,10 +138,15 @@ const std::array kSections{
             .name = [](const Target& t) { return t.insertion->name; },
             .rename = [](const Target& t, const std::string& name) { t.insertion->name = name; }},
     Section{.path = "insertion.*.size",
-            .doc = "How large the spheres are, by number. Not needed where a file gives their places.",
+            .doc =
+                "How large the spheres are, by number. Not needed where a file gives their places, or where "
+                "a shape comes in as it was given.",
             .count =
                 [](const Target& t) {
-                  return std::size_t{t.insertion->volume.shape == simulation::VolumeShape::file ? 0u : 1u};
+                  const simulation::InsertionSetup& i = *t.insertion;
+                  const bool as_given =
+                      !i.shape.empty() && i.size.kind == simulation::SizeKind::single && i.size.radius == 0.0;
+                  return std::size_t{i.volume.shape == simulation::VolumeShape::file || as_given ? 0u : 1u};
                 },
             .add = nothing,
             .enter = stay},

@@ -7,7 +7,10 @@
 #include <cmath>
 
 #include "abradem/core/error.h"
+#include "abradem/geometry/mesh_check.h"
+#include "abradem/geometry/mesh_repair.h"
 #include "abradem/io/csv.h"
+#include "abradem/io/mesh_files.h"
 
 namespace abradem::io {
 
@@ -26,9 +29,33 @@ std::vector<double> checked(const CsvTable& table, const std::string& file, cons
   return values;
 }
 
+void fit_shape(const std::string& name, ShapeFitSetup& fit) {
+  geometry::TriangleMesh mesh = read_mesh(fit.file, fit.unit);
+  geometry::repair_mesh(mesh);
+  const geometry::MeshReport report = geometry::check_mesh(mesh);
+  if (!report.closed)
+    throw GeometryError(fmt::format(
+        "shape '{}': the mesh '{}' is not closed ({} open edges, {} with more than two triangles, {} "
+        "between opposite sides): it bounds no solid; `abradem check {}` says more",
+        name, fit.file, report.open_edges, report.non_manifold_edges, report.inconsistent_edges, fit.file));
+  if (report.components > 1 || !(report.volume > 0.0))
+    throw GeometryError(
+        fmt::format("shape '{}': the mesh '{}' is not one solid: it has {} parts that enclose "
+                    "{:.4g} mm^3 together",
+                    name, fit.file, report.components, 1e9 * report.volume));
+  try {
+    fit.fit = geometry::fit_spheres(mesh, fit.count);
+  } catch (const GeometryError& e) {
+    throw GeometryError(fmt::format("shape '{}', mesh '{}': {}", name, fit.file, e.what()));
+  }
+  fit.solid = geometry::mass_properties(mesh);
+}
+
 }  // namespace
 
 void read_insertion_files(Setup& setup) {
+  for (ShapeSetup& shape : setup.shapes)
+    if (shape.fit) fit_shape(shape.name, *shape.fit);
   for (InsertionSetup& i : setup.insertions) {
     if (i.volume.shape == VolumeShape::file) {
       const CsvTable table = read_csv(i.volume.file);

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "abradem/core/hash.h"
 #include "abradem/core/version.h"
@@ -137,6 +138,21 @@ std::string acceleration_text(const RunRecord& record, double factor) {
 
 }  // namespace
 
+std::string shape_text(const simulation::ShapeSetup& shape) {
+  const double R = simulation::clump_shape(shape).radius;
+  const double volume = 4.0 / 3.0 * std::numbers::pi * R * R * R;
+  if (!shape.fit)
+    return fmt::format("{} spheres, {:.4g} mm^3, as a sphere of {:.4g} mm radius", shape.spheres.size(),
+                       1e9 * volume, 1e3 * R);
+  const geometry::SphereFit& fit = shape.fit->fit;
+  return fmt::format(
+      "{} spheres for a solid of {:.4g} mm^3, as a sphere of {:.4g} mm radius; their union's volume differs "
+      "by "
+      "{:.2g} %, they leave the surface bare by at most {:.3g} mm and reach out of it by {:.3g} mm",
+      fit.balls.size(), 1e9 * volume, 1e3 * R, 100.0 * fit.volume_error, 1e3 * fit.deepest,
+      1e3 * fit.furthest);
+}
+
 std::uint64_t inputs_hash(const simulation::Setup& setup) {
   core::StateHash hash;
   add_bytes(hash, resolved_case(setup));
@@ -148,6 +164,8 @@ std::uint64_t inputs_hash(const simulation::Setup& setup) {
   for (const simulation::InsertionSetup& insertion : setup.insertions)
     for (const std::string& file : {insertion.size.file, insertion.volume.file})
       if (!file.empty()) add_file(hash, file);
+  for (const simulation::ShapeSetup& shape : setup.shapes)
+    if (shape.fit) add_file(hash, shape.fit->file);
   return hash.value();
 }
 
@@ -205,8 +223,10 @@ std::string to_json(const RunRecord& record, const simulation::Setup& setup) {
   if (record.resumed > 0) json["resumed"] = record.resumed;
   if (const double factor = acceleration_of(setup); factor != 1.0 || record.acceleration) {
     json["acceleration"] = acceleration_json(record, factor);
-    json["setup"] = {{"Acceleration", acceleration_text(record, factor)}};
+    json["setup"]["Acceleration"] = acceleration_text(record, factor);
   }
+  for (const simulation::ShapeSetup& shape : setup.shapes)
+    json["setup"][fmt::format("Shape '{}'", shape.name)] = shape_text(shape);
   if (setup.measurement) json["measurement"] = measurement_json(*setup.measurement);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

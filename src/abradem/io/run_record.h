@@ -47,6 +47,9 @@ struct RunRecord {
 /// oscillates, "output" where none does.
 [[nodiscard]] std::string counted(const simulation::Setup& setup);
 
+/// What a shape is made of, in words; of a fitted one also how well it stands for its solid.
+[[nodiscard]] std::string shape_text(const simulation::ShapeSetup& shape);
+
 /// Hash of all that decides about a run's results but the program itself: every key of the resolved case and
 /// the bytes of the mesh files it names. A file that cannot be read counts as empty.
 [[nodiscard]] std::uint64_t inputs_hash(const simulation::Setup& setup);

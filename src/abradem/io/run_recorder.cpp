@@ -183,6 +183,8 @@ void RunRecorder::write_frame() {
 void RunRecorder::write_spheres(const std::filesystem::path& path) const {
   std::vector<Vec3> position = run_.particles().position, velocity = run_.particles().velocity;
   std::vector<double> radius = run_.particles().radius, id(radius.size()), speeds;
+  std::vector<double> clump(radius.size(), -1.0), turn;  // where there are any
+  for (std::size_t p = 0; p < radius.size(); ++p) turn.insert(turn.end(), {1.0, 0.0, 0.0, 0.0});
   std::iota(id.begin(), id.end(), 0.0);
   if (run_.bulk()) {
     const contact::Spheres& spheres = run_.bulk()->spheres();
@@ -195,10 +197,21 @@ void RunRecorder::write_spheres(const std::filesystem::path& path) const {
       velocity.push_back(spheres.row[i].velocity());
       radius.push_back(spheres.row[i].radius);
       id.push_back(spheres.id[i]);
+      if (run_.bulk()->clumps().shapes().empty()) continue;
+      const std::int32_t number = spheres.clump.empty() ? -1 : spheres.clump[i];
+      const simulation::Clump* c =
+          number < 0 ? nullptr : &run_.bulk()->clumps().clumps()[static_cast<std::size_t>(number)];
+      const geometry::Quaternion q = c != nullptr ? c->turn : geometry::Quaternion{};
+      clump.push_back(c != nullptr ? c->id : -1.0);
+      turn.insert(turn.end(), {q.w, q.x, q.y, q.z});
     }
   }
   for (const Vec3& v : velocity) speeds.insert(speeds.end(), {v.x, v.y, v.z});
-  const VtpArray arrays[]{{"velocity_m_per_s", speeds, 3}, {"id", id, 1}};
+  std::vector<VtpArray> arrays{{"velocity_m_per_s", speeds, 3}, {"id", id, 1}};
+  if (!run_.setup().shapes.empty()) {
+    arrays.push_back({"clump", clump, 1});
+    arrays.push_back({"orientation", turn, 4});
+  }
   write_vtp_spheres(path, position, radius, arrays);
 }
 

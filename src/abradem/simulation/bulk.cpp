@@ -39,11 +39,20 @@ bool outside(const DomainSetup& d, const Vec3& period, const Vec3& p) noexcept {
            within(p.z, d.low.z, d.high.z, period.z));
 }
 
+std::string left_the_domain(const std::string& who, const Vec3& p, const Vec3& v) {
+  return fmt::format(
+      "{} has left the domain at ({:.6g}, {:.6g}, {:.6g}) m with {:.4g} m/s. Enlarge the [domain], close the "
+      "walls, or set outside = \"remove\"",
+      who, p.x, p.y, p.z, norm(v));
+}
+
 }  // namespace
 
 Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
-           const std::vector<material::PairProperties>& properties, const Particles& named)
-    : walls_(setup.walls.size()),
+           const std::vector<material::PairProperties>& properties, const Particles& named,
+           const std::vector<ClumpShape>& shapes)
+    : clumps_(shapes),
+      walls_(setup.walls.size()),
       domain_(setup.domain),
       period_(period_of(setup.domain)),
       names_(named.name) {
@@ -77,8 +86,9 @@ Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
     const auto material = std::ranges::find(setup.materials, insertion.material, &MaterialSetup::name);
     const auto m = static_cast<std::size_t>(material - setup.materials.begin());
     constexpr std::uint64_t kStream = 1000;  // of the first insertion: far from those of the meshes
-    inserters_.emplace_back(insertion, static_cast<int>(m), materials[m].density, setup.run.seed,
-                            kStream + k);
+    const auto shape = std::ranges::find(shapes, insertion.shape, &ClumpShape::name);
+    inserters_.emplace_back(insertion, static_cast<int>(m), materials[m].density, setup.run.seed, kStream + k,
+                            shape != shapes.end() ? &*shape : nullptr);
   }
   take_in(0.0);
 }
@@ -86,25 +96,48 @@ Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
 void Bulk::take_in(double time) {
   for (Inserter& inserter : inserters_) {
     if (!inserter.wants(time)) continue;
+    if (const ClumpShape* shape = inserter.shape()) {
+      const auto number =
+          std::ranges::find(clumps_.shapes(), shape->name, &ClumpShape::name) - clumps_.shapes().begin();
+      for (Clumps::Birth& birth : inserter.insert_clumps(time, spheres_, period_)) {
+        birth.shape = static_cast<std::int32_t>(number);
+        clumps_.add(birth, spheres_, next_id_);
+        worn_out_ = true;
+      }
+      continue;
+    }
     for (const contact::SphereRow& s : inserter.insert(time, spheres_, period_)) {
       spheres_.row.push_back(s);
       spheres_.id.push_back(next_id_++);
       worn_out_ = true;
     }
   }
+  if (!clumps_.empty()) spheres_.clump.resize(spheres_.size(), -1);
+}
+
+void Bulk::take_out_clumps() {
+  std::vector<std::uint8_t> gone(clumps_.size(), 0);
+  for (std::size_t k = 0; k < clumps_.size(); ++k) {
+    const Clump& c = clumps_.clumps()[k];
+    if (!outside(*domain_, period_, c.position)) continue;
+    if (domain_->outside == Outside::stop)
+      throw SimulationError(left_the_domain(fmt::format("clump {}", c.id), c.position, c.velocity));
+    gone[k] = 1;
+    ++removed_;
+    removed_mass_ += c.mass;
+  }
+  clumps_.take_out(gone, spheres_);
 }
 
 void Bulk::take_out() {
   if (!domain_) return;
+  if (!clumps_.empty()) take_out_clumps();
   for (std::size_t i = 0; i < spheres_.size(); ++i) {
     const contact::SphereRow& s = spheres_.row[i];
-    if (spheres_.id[i] < named_ || !outside(*domain_, period_, s.position())) continue;
+    if (spheres_.id[i] < named_ || in_clump(i) || !outside(*domain_, period_, s.position())) continue;
     if (domain_->outside == Outside::stop)
       throw SimulationError(
-          fmt::format("particle {} has left the domain at ({:.6g}, {:.6g}, {:.6g}) m with {:.4g} m/s. "
-                      "Enlarge the [domain], "
-                      "close the walls, or set outside = \"remove\"",
-                      spheres_.id[i], s.x, s.y, s.z, norm(s.velocity())));
+          left_the_domain(fmt::format("particle {}", spheres_.id[i]), s.position(), s.velocity()));
     spheres_.id[i] = -1;
     ++removed_;
     removed_mass_ += 1.0 / s.inverse_mass;
@@ -144,6 +177,7 @@ void Bulk::find_contacts(const Surroundings& around, const Particles& named, std
     check_periods();
     if (table_.adhesion) skin_ = std::max(skin_, 2.0 * longest_stretch());
     list_.rebuild(spheres_, skin_, margin(around.dt));
+    if (!spheres_.clump.empty()) clumps_.settle(spheres_, domain_ ? domain_->low : Vec3{}, period_);
     walls_.rebuild(spheres_, around, skin_, named_, paper);
     find_named();
     travelled_ = near_at_ = wall_time_ = 0.0;
@@ -206,7 +240,9 @@ void Bulk::compute_forces(const Surroundings& around, Particles& named) {
 
 void Bulk::integrate(const Surroundings& around) {
   if (needs_loads()) {
+    if (!clumps_.empty()) clumps_.take_loads(load_);
     met_ = contact::advance_spheres(spheres_.row, load_, around.gravity, around.dt);
+    if (!clumps_.empty()) clumps_.advance(spheres_, load_, around.gravity, around.dt, met_);
   } else {
     met_ = contact::forces_and_advance(
         spheres_, list_, table_, around.dt, load_, around.gravity,
@@ -290,7 +326,7 @@ void Bulk::check_overlaps(const Surroundings& around, std::uint64_t step) const 
 }
 
 void Bulk::watch_stability(const Surroundings& around, std::uint64_t step, Stability then) {
-  const auto mode = stability_.watch(spheres_, list_, table_, load_, walls_, around, met_.stability);
+  const auto mode = stability_.watch(spheres_, list_, table_, load_, walls_, clumps_, around, met_.stability);
   if (!mode || then == Stability::warn) return;
   fail(mode->sphere,
        fmt::format("the time step is too long: 2g + W = {:.4g} in its contact with {}, stable below 4; a "
@@ -305,6 +341,10 @@ void Bulk::watch_stability(const Surroundings& around, std::uint64_t step, Stabi
 
 std::string Bulk::title(std::size_t i) const {
   const std::int32_t id = spheres_.id[i];
+  if (in_clump(i)) {
+    const Clump& c = clumps_.clumps()[at(spheres_.clump[i])];
+    return fmt::format("sphere {} of clump {}", id - c.first_sphere, c.id);
+  }
   return id < named_ ? fmt::format("particle '{}'", names_[at(id)]) : fmt::format("particle {}", id);
 }
 
@@ -324,12 +364,21 @@ BulkState Bulk::state(const std::vector<material::PairProperties>& properties) c
     if (spheres_.id[i] < named_) continue;
     const contact::SphereRow& s = spheres_.row[i];
     const double mass = 1.0 / s.inverse_mass, v2 = norm2(s.velocity());
+    if (in_clump(i)) {
+      state.fastest = std::max(state.fastest, v2);
+      continue;
+    }
     ++state.present;
     state.mass += mass;
     state.kinetic_energy += 0.5 * mass * (v2 + 0.4 * s.radius * s.radius * norm2(s.spin()));
     state.fastest = std::max(state.fastest, v2);
   }
   state.fastest = std::sqrt(state.fastest);
+  state.present += clumps_.size();
+  for (const Clump& c : clumps_.clumps()) {
+    state.mass += c.mass;
+    state.kinetic_energy += c.kinetic_energy();
+  }
   list_.for_each_near([&](const contact::ContactBlock& block, std::size_t k) {
     const contact::SphereRow &i = spheres_.row[at(block.i[k])], &j = spheres_.row[at(block.j[k])];
     const double reach = i.radius + j.radius,
@@ -357,6 +406,7 @@ bool Bulk::restore(const Surroundings& around) {
                        s.material >= 0.0 && s.material < static_cast<double>(around.materials);
     if (!sound || spheres_.id[i] < 0 || spheres_.id[i] >= next_id_) return false;
   }
+  if (!clumps_.restore(spheres_, period_)) return false;
   if (worn_out_) return walls_.meshes().empty();  // everything else will be made anew
   find_named();
   for (std::size_t p = 0; p < place_of_named_.size(); ++p)
@@ -374,6 +424,7 @@ void Bulk::add_to(core::StateHash& hash) const {
     hash.add(s.velocity());
     hash.add(s.spin());
   }
+  clumps_.add_to(hash);
   list_.for_each_near([&](const contact::ContactBlock& block, std::size_t k) {
     if (block.touching[k] == 0) return;
     hash.add(block.spring(k));

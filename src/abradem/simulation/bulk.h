@@ -9,12 +9,13 @@
 #include "abradem/core/hash.h"
 #include "abradem/simulation/bulk_stability.h"
 #include "abradem/simulation/bulk_walls.h"
+#include "abradem/simulation/clumps.h"
 #include "abradem/simulation/insertion.h"
 #include "abradem/simulation/particles.h"
 
 namespace abradem::simulation {
 
-/// What became of the particles in numbers so far, and how they move now.
+/// What became of the particles in numbers so far, and how they move now. A clump counts as one.
 struct BulkState {
   std::uint64_t inserted = 0, removed = 0, present = 0;
   double mass = 0.0, removed_mass = 0.0;  ///< [kg]
@@ -31,9 +32,10 @@ struct BulkState {
 /// The methods are chapters of the simulation's step (docs/architecture.md#particles-in-numbers).
 class Bulk {
  public:
-  /// @param materials densities are taken from them
+  /// @param materials densities are taken from them   @param shapes of setup.shapes, in their order
   Bulk(const Setup& setup, const std::vector<material::Material>& materials,
-       const std::vector<material::PairProperties>& properties, const Particles& named);
+       const std::vector<material::PairProperties>& properties, const Particles& named,
+       const std::vector<ClumpShape>& shapes);
 
   /// Takes in what is due for insertion and takes out what has left; makes the lists anew when they have worn
   /// out; finds the contacts with the walls.
@@ -55,6 +57,8 @@ class Bulk {
   /// All spheres, in the order of the engine; ids below named() are the named ones.
   [[nodiscard]] const contact::Spheres& spheres() const noexcept { return spheres_; }
   [[nodiscard]] const contact::SphereList& list() const noexcept { return list_; }
+  /// Those of several spheres; what acts on their spheres is handed over to them.
+  [[nodiscard]] const Clumps& clumps() const noexcept { return clumps_; }
   [[nodiscard]] std::int32_t named() const noexcept { return named_; }
   /// Forces of the last step's contacts, in the order of spheres(); those of named particles are handed over.
   [[nodiscard]] const contact::LoadRows& loads() const noexcept { return load_; }
@@ -70,7 +74,7 @@ class Bulk {
   /// All that lasts from one step to the next, for core/archive.h; restore() follows a load.
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
-    archive("spheres", self.spheres_)("list", self.list_)("walls", self.walls_);
+    archive("spheres", self.spheres_)("list", self.list_)("walls", self.walls_)("clumps", self.clumps_);
     for (auto& inserter : self.inserters_) archive("inserter", inserter);
     archive("next_id", self.next_id_)("skin", self.skin_)("travelled", self.travelled_);
     archive("margin", self.margin_)("near_at", self.near_at_)("fastest_now", self.met_.fastest2);
@@ -82,12 +86,16 @@ class Bulk {
   [[nodiscard]] bool restore(const Surroundings& around);
 
  private:
-  [[nodiscard]] bool needs_loads() const noexcept { return named_ > 0; }
+  [[nodiscard]] bool needs_loads() const noexcept { return named_ > 0 || !clumps_.empty(); }
   void take_in(double time);
   [[nodiscard]] double longest_stretch() const;
   void check_periods() const;
   [[nodiscard]] double margin(double dt);
   void take_out();
+  void take_out_clumps();
+  [[nodiscard]] bool in_clump(std::size_t i) const noexcept {
+    return !spheres_.clump.empty() && spheres_.clump[i] >= 0;
+  }
   [[nodiscard]] std::string title(std::size_t i) const;
   void find_named();
   void check_motion(const Surroundings& around, std::uint64_t step) const;
@@ -100,6 +108,7 @@ class Bulk {
                              "and the starting positions") const;
 
   contact::Spheres spheres_;
+  Clumps clumps_;
   contact::SphereList list_;
   contact::PairTable table_;
   contact::LoadRows load_;

@@ -88,14 +88,32 @@ std::vector<Link> links_of(const contact::Spheres& spheres, const contact::Spher
   return links;
 }
 
+/// What moves as one: of each sphere the row that stands for its body (its own, or a clump's first), and how
+/// willingly that body moves [1/kg].
+struct Bodies {
+  std::vector<std::size_t> of;
+  std::vector<double> response;
+
+  Bodies(const contact::Spheres& spheres, const Clumps& clumps)
+      : of(spheres.size()), response(spheres.size()) {
+    std::vector<std::size_t> first(clumps.size(), spheres.size());
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      const std::int32_t c = spheres.clump.empty() ? -1 : spheres.clump[i];
+      if (c >= 0 && first[at(c)] == spheres.size()) first[at(c)] = i;
+      of[i] = c >= 0 ? first[at(c)] : i;
+      response[i] = c >= 0 ? clumps.response(clumps.clumps()[at(c)]) : spheres.row[i].inverse_mass;
+    }
+  }
+};
+
 /// Rayleigh's quotients of both spheres moving along the link's normal, each by its part of the distance.
-Scheme scheme_of(const Link& link, const contact::Spheres& spheres, const std::vector<Tensor>& damping,
+Scheme scheme_of(const Link& link, const Bodies& bodies, const std::vector<Tensor>& damping,
                  const std::vector<Tensor>& stiffness) noexcept {
-  const std::size_t i = link.mode.sphere;
-  const double per_i = spheres.row[i].inverse_mass;
+  const std::size_t i = bodies.of[link.mode.sphere];
+  const double per_i = bodies.response[i];
   if (link.mode.partner < 0) return {damping[i].along(link.n) * per_i, stiffness[i].along(link.n) * per_i};
-  const std::size_t j = at(link.mode.partner);
-  const double per_j = spheres.row[j].inverse_mass, m_eff = 1.0 / (per_i + per_j);
+  const std::size_t j = bodies.of[at(link.mode.partner)];
+  const double per_j = bodies.response[j], m_eff = 1.0 / (per_i + per_j);
   const double u = per_i * m_eff, v = per_j * m_eff;
   const auto quotient = [&](double own, const std::vector<Tensor>& all) {
     return (own + u * u * (all[i].along(link.n) - own) + v * v * (all[j].along(link.n) - own)) / m_eff;
@@ -109,7 +127,8 @@ std::optional<BulkStability::Mode> BulkStability::watch(const contact::Spheres& 
                                                         const contact::SphereList& list,
                                                         const contact::PairTable& table,
                                                         const contact::LoadRows& load, const BulkWalls& walls,
-                                                        const Surroundings& around, double largest) {
+                                                        const Clumps& clumps, const Surroundings& around,
+                                                        double largest) {
   worst_ = std::max(worst_, largest);
   // Twice the largest sum of one sphere bounds 2 g + W of every motion: nearly all runs end here.
   constexpr double kSafe = 0.5 * Scheme::kLimit;
@@ -117,31 +136,35 @@ std::optional<BulkStability::Mode> BulkStability::watch(const contact::Spheres& 
     growing_.clear();
     return {};
   }
+  const Bodies bodies(spheres, clumps);
+  std::vector<double> stiffening(spheres.size(), 0.0);
+  for (std::size_t i = 0; i < spheres.size(); ++i) stiffening[bodies.of[i]] += load[i].stiffening;
   std::vector<std::uint8_t> hot(spheres.size());
   for (std::size_t i = 0; i < spheres.size(); ++i)
-    hot[i] = static_cast<std::uint8_t>(load[i].stiffening * spheres.row[i].inverse_mass > kSafe);
+    hot[i] = static_cast<std::uint8_t>(stiffening[bodies.of[i]] * bodies.response[i] > kSafe);
   const std::vector<Link> links = links_of(spheres, list, table, walls, around, hot);
   std::vector<Tensor> damping(spheres.size()), stiffness(spheres.size());
   for (const Link& link : links) {
-    damping[link.mode.sphere].add(link.damping, link.n);
-    stiffness[link.mode.sphere].add(link.stiffness, link.n);
-    if (link.mode.partner < 0) continue;
-    damping[at(link.mode.partner)].add(link.damping, link.n);
-    stiffness[at(link.mode.partner)].add(link.stiffness, link.n);
+    const auto add_to = [&](std::size_t sphere) {
+      damping[bodies.of[sphere]].add(link.damping, link.n);
+      stiffness[bodies.of[sphere]].add(link.stiffness, link.n);
+    };
+    add_to(link.mode.sphere);
+    if (link.mode.partner >= 0) add_to(at(link.mode.partner));
   }
   // The worst mode of each sphere.
   std::vector<double> number(spheres.size(), 0.0);
   std::vector<Mode> mode(spheres.size());
   for (const Link& link : links) {
     Mode found = link.mode;
-    found.scheme = scheme_of(link, spheres, damping, stiffness);
+    found.scheme = scheme_of(link, bodies, damping, stiffness);
     const auto offer = [&](std::size_t i) {
       if (found.scheme.number() <= number[i]) return;
       number[i] = found.scheme.number();
       mode[i] = found;
     };
-    offer(link.mode.sphere);
-    if (link.mode.partner >= 0) offer(at(link.mode.partner));
+    offer(bodies.of[link.mode.sphere]);
+    if (link.mode.partner >= 0) offer(bodies.of[at(link.mode.partner)]);
   }
   std::vector<Growing> growing;
   std::optional<Mode> worst;

@@ -8,6 +8,7 @@
 #include "abradem/contact/contact_chunk.h"
 #include "abradem/contact/sphere_list.h"
 #include "abradem/simulation/bulk_walls.h"
+#include "abradem/simulation/clumps.h"
 #include "abradem/simulation/stability.h"
 #include "abradem/simulation/surroundings.h"
 
@@ -25,11 +26,13 @@ class BulkStability {
     Scheme scheme;
   };
 
+  /// A clump is one body that answers as at its most willing sphere (Clumps::response): its contacts add up.
   /// @param largest the largest 2 g + W of one sphere's contacts together in this step
   /// @return the mode in which a disturbance has grown a thousandfold, if there is one
   [[nodiscard]] std::optional<Mode> watch(const contact::Spheres& spheres, const contact::SphereList& list,
                                           const contact::PairTable& table, const contact::LoadRows& load,
-                                          const BulkWalls& walls, const Surroundings& around, double largest);
+                                          const BulkWalls& walls, const Clumps& clumps,
+                                          const Surroundings& around, double largest);
   /// Largest 2 g + W met, of a sphere's contacts together or of a mode. docs/theory/time-step.md
   [[nodiscard]] double worst() const noexcept { return worst_; }
 

@@ -148,12 +148,39 @@ double draw_radius(const SizeSetup& size, core::RandomStream& random) {
 }
 
 Inserter::Inserter(const InsertionSetup& setup, int material, double density, std::uint64_t seed,
-                   std::uint64_t stream)
-    : setup_(setup), material_(material), density_(density), random_(seed, stream), next_(setup.start) {
-  if (setup_.placed.empty()) draw_next();
+                   std::uint64_t stream, const ClumpShape* shape)
+    : setup_(setup),
+      material_(material),
+      density_(density),
+      random_(seed, stream),
+      turns_(seed, stream + 1'000'000),
+      next_(setup.start) {
+  if (shape != nullptr) shape_ = *shape;
+  if (setup_.placed.empty()) {
+    if (shape_) refuse_too_small_a_volume();
+    draw_next();
+  }
 }
 
-void Inserter::draw_next() { radius_ = draw_radius(setup_.size, random_); }
+void Inserter::refuse_too_small_a_volume() const {
+  const VolumeSetup& v = setup_.volume;
+  const double R = shape_->bounding * largest_radius(setup_.size);
+  const auto narrow = [&](double e) { return !(v.shape == VolumeShape::face && e == 0.0) && e < 2.0 * R; };
+  const Vec3 e = v.high - v.low;
+  const bool fits = v.shape == VolumeShape::cylinder ? v.radius >= R && norm(v.top - v.base) >= 2.0 * R
+                                                     : !narrow(e.x) && !narrow(e.y) && !narrow(e.z);
+  if (!fits)
+    throw InputError(fmt::format(
+        "insertion '{}': its volume is too small for one '{}', which turns in a sphere of {:.4g} mm radius",
+        setup_.name, shape_->name, 1e3 * R));
+}
+
+void Inserter::draw_next() {
+  radius_ = draw_radius(setup_.size, random_);
+  if (!shape_) return;
+  const double u = turns_.uniform(), v = turns_.uniform();
+  turn_ = geometry::uniform_rotation(u, v, turns_.uniform());
+}
 
 Vec3 Inserter::draw_place(double radius) {
   const VolumeSetup& v = setup_.volume;
@@ -176,7 +203,8 @@ Vec3 Inserter::draw_place(double radius) {
 bool Inserter::restored() const noexcept {
   const bool drawn = !setup_.placed.empty() ||
                      (radius_ >= smallest_radius(setup_.size) && radius_ <= largest_radius(setup_.size));
-  return drawn && mass_ >= 0.0 && std::isfinite(mass_) && next_ >= 0.0;
+  return drawn && mass_ >= 0.0 && std::isfinite(mass_) && next_ >= 0.0 &&
+         std::abs(turn_.norm2() - 1.0) < 1e-6;
 }
 
 bool Inserter::due(double time, double next_mass) const noexcept {
@@ -189,28 +217,48 @@ bool Inserter::due(double time, double next_mass) const noexcept {
 std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Spheres& present,
                                                  const Vec3& period) {
   std::vector<contact::SphereRow> made;
-  const auto make = [&](const Vec3& p, double R, const Vec3& v) {
+  for (const Clumps::Birth& b : bring_in(time, present, period)) {
     contact::SphereRow s;
-    s.set_position(p);
-    s.set_velocity(v);
-    s.radius = R;
-    s.inverse_mass = 1.0 / mass_of(R, density_);
+    s.set_position(b.position);
+    s.set_velocity(b.velocity);
+    s.radius = b.radius;
+    s.inverse_mass = 1.0 / mass_of(b.radius, density_);
     s.material = material_;
     made.push_back(s);
+  }
+  return made;
+}
+
+std::vector<Clumps::Birth> Inserter::insert_clumps(double time, const contact::Spheres& present,
+                                                   const Vec3& period) {
+  return bring_in(time, present, period);
+}
+
+std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Spheres& present,
+                                              const Vec3& period) {
+  std::vector<Clumps::Birth> made;
+  const auto make = [&](const Vec3& p, double R, const Vec3& v) {
+    made.push_back({0, material_, R, density_, p, v, turn_});
     ++inserted_;
     mass_ += mass_of(R, density_);
   };
   if (!setup_.placed.empty()) {
-    for (const PlacedSphere& p : setup_.placed) make(p.position, p.radius, p.velocity);
+    for (const PlacedSphere& p : setup_.placed) {
+      if (shape_) {
+        const double u = turns_.uniform(), v = turns_.uniform();
+        turn_ = geometry::uniform_rotation(u, v, turns_.uniform());
+      }
+      make(p.position, p.radius, p.velocity);
+    }
     next_ = std::numeric_limits<double>::infinity();
     return made;
   }
-  const double largest = largest_radius(setup_.size);
+  const double largest = largest_radius(setup_.size), bounding = shape_ ? shape_->bounding : 1.0;
   const geometry::BoundingBox box = box_of(setup_.volume);
-  Occupancy occupancy(largest);
-  const double beyond =
-      setup_.volume.shape == VolumeShape::face ? largest : 0.0;  // bodies lie inside, but of a face
-  const auto add = [&](const Vec3& centre, double R) {           // and its images
+  Occupancy occupancy(shape_ ? largest * shape_->largest : largest);
+  const double beyond = setup_.volume.shape == VolumeShape::face ? bounding * largest
+                                                                 : 0.0;  // bodies lie inside, but of a face
+  const auto add = [&](const Vec3& centre, double R) {                   // and its images
     const auto count = [](double length) { return length > 0.0 ? 1 : 0; };
     for (int i = -count(period.x); i <= count(period.x); ++i)
       for (int j = -count(period.y); j <= count(period.y); ++j)
@@ -222,29 +270,32 @@ std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Sph
             occupancy.add(p, R);
         }
   };
+  /// Calls f(centre, radius) for the next one's spheres at p until one says no. @return whether none did
+  const auto all_spheres = [&](const Vec3& p, auto&& f) {
+    if (!shape_) return f(p, radius_);
+    return std::ranges::all_of(shape_->spheres, [&](const geometry::Ball& b) {
+      return f(p + turn_.turn(radius_ * b.centre), radius_ * b.radius);
+    });
+  };
   for (const contact::SphereRow& s : present.row) add(s.position(), s.radius);
   waiting_ = false;
   while (!waiting_ && due(time, mass_of(radius_, density_))) {
     // Finds a gap of a 1/5000 of the volume nearly always; at a rate there will be another try soon.
     const int tries = setup_.mass_rate ? 1000 : 20000;
     waiting_ = true;
-    for (int k = 0; k < tries && waiting_; ++k)
-      if (const Vec3 p = draw_place(radius_); occupancy.is_free(p, radius_)) {
-        add(p, radius_);
-        make(p, radius_, setup_.velocity);
-        draw_next();
-        waiting_ = false;
-      }
+    for (int k = 0; k < tries && waiting_; ++k) {
+      const Vec3 p = draw_place(shape_ ? radius_ * bounding : radius_);
+      if (!all_spheres(p, [&](const Vec3& c, double R) { return occupancy.is_free(c, R); })) continue;
+      static_cast<void>(all_spheres(p, [&](const Vec3& c, double R) {
+        add(c, R);
+        return true;
+      }));
+      make(p, radius_, setup_.velocity);
+      draw_next();
+      waiting_ = false;
+    }
   }
-  if (waiting_ && !setup_.mass_rate)
-    throw InputError(fmt::format(
-        "insertion '{}': its volume is full after {} of the {} particles to be placed there ({:.3g} kg, "
-        "{:.1f} % of "
-        "the volume; at random, without overlaps, about 30 % can be reached). Enlarge the volume, lower "
-        "the number, or insert at a mass_rate",
-        setup_.name, inserted_,
-        setup_.number > 0 ? fmt::format("{}", setup_.number) : fmt::format("{:.4g} kg of", *setup_.mass),
-        mass_, 100.0 * mass_ / density_ / volume_of(setup_.volume)));
+  if (waiting_ && !setup_.mass_rate) refuse_full_volume();
   // At a rate: again when a sphere of the largest size may have cleared its place.
   const double pause = setup_.mass_rate ? std::max(mass_of(radius_, density_) / *setup_.mass_rate, 1e-3)
                                         : std::numeric_limits<double>::infinity();
@@ -252,6 +303,18 @@ std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Sph
                     (setup_.mass && mass_ + 0.5 * mass_of(radius_, density_) > *setup_.mass);
   next_ = done ? std::numeric_limits<double>::infinity() : time + pause;
   return made;
+}
+
+void Inserter::refuse_full_volume() const {
+  throw InputError(fmt::format(
+      "insertion '{}': its volume is full after {} of the {} particles to be placed there ({:.3g} kg, {:.1f} "
+      "% "
+      "of the volume; at random, without overlaps, {} can be reached). Enlarge the volume, lower the number, "
+      "or insert at a mass_rate",
+      setup_.name, inserted_,
+      setup_.number > 0 ? fmt::format("{}", setup_.number) : fmt::format("{:.4g} kg of", *setup_.mass), mass_,
+      100.0 * mass_ / density_ / volume_of(setup_.volume),
+      shape_ ? "less than the 30 % of spheres" : "about 30 %"));
 }
 
 }  // namespace abradem::simulation

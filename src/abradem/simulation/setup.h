@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "abradem/core/vec3.h"
+#include "abradem/geometry/sphere_fit.h"
 
 /// A case, resolved: what the case file says, in SI units, as plain data. The case reader fills it, a C++
 /// program may fill it by hand; `Simulation` takes it. Keys and defaults: docs/reference/case-file.md.
@@ -221,6 +222,24 @@ struct PlacedSphere {
   }
 };
 
+/// Spheres in the place of the solid in a closed mesh file. What the file says is filled in by its reader.
+struct ShapeFitSetup {
+  std::string file;                ///< absolute, or relative to the case file's folder
+  double unit = 1.0;               ///< metres per unit of length in the file
+  int count = 12;                  ///< at most so many spheres
+  geometry::SphereFit fit;         ///< as read
+  geometry::MassProperties solid;  ///< of the mesh itself, as read
+  bool operator==(const ShapeFitSetup&) const = default;
+};
+
+/// What a particle in numbers looks like that is no sphere: spheres that keep together, given or fitted.
+struct ShapeSetup {
+  std::string name;
+  std::vector<geometry::Ball> spheres;  ///< given, in any frame
+  std::optional<ShapeFitSetup> fit;     ///< or fitted
+  bool operator==(const ShapeSetup&) const = default;
+};
+
 /// Particles in numbers, all of one material.
 struct InsertionSetup {
   std::string name;
@@ -233,6 +252,7 @@ struct InsertionSetup {
   double start = 0.0;                ///< time at which it begins [s]
   Vec3 velocity;                     ///< [m/s]
   std::vector<PlacedSphere> placed;  ///< given places, instead of volume, size and number
+  std::string shape;  ///< name of a shape; empty: spheres. Radii are then those of spheres of equal volume
   bool operator==(const InsertionSetup&) const = default;
 };
 
@@ -344,6 +364,7 @@ struct Setup {
   std::vector<WallSetup> walls;
   std::vector<RegionSetup> regions;
   std::vector<ParticleSetup> particles;
+  std::vector<ShapeSetup> shapes;
   std::vector<InsertionSetup> insertions;
   std::optional<DomainSetup> domain;
   RunSetup run;

@@ -263,8 +263,16 @@ void Simulation::add_particles() {
   particles_.torque.resize(particles_.size());
   stiffness_ratio_.assign(particles_.size(), 0.0);
   growth_.assign(particles_.size(), 0.0);
+  std::vector<ClumpShape> shapes;
+  for (const ShapeSetup& shape : setup_.shapes) shapes.push_back(clump_shape(shape));
+  for (InsertionSetup& i : setup_.insertions) {
+    if (i.shape.empty()) continue;
+    const ClumpShape& shape = shapes[static_cast<std::size_t>(index_of(setup_.shapes, i.shape, "shape"))];
+    // Without a size: as the shape was given.
+    if (i.size.kind == SizeKind::single && i.size.radius == 0.0) i.size.radius = shape.radius;
+  }
   if (particles_.size() > 1 || !setup_.insertions.empty())
-    bulk_.emplace(setup_, materials_, pairs_, particles_);
+    bulk_.emplace(setup_, materials_, pairs_, particles_, shapes);
 }
 
 /// A map for every guided sphere that some wall wears; as fine as a quarter of its first contact.
@@ -367,10 +375,11 @@ void Simulation::choose_time_step() {
       shortest = std::min(
           shortest, material::rayleigh_time(materials_[static_cast<std::size_t>(particles_.material[p])],
                                             particles_.radius[p]));
-    for (const InsertionSetup& i : setup_.insertions) {
-      const auto& m =
-          materials_[static_cast<std::size_t>(index_of(setup_.materials, i.material, "material"))];
-      shortest = std::min(shortest, material::rayleigh_time(m, smallest_radius(i)));
+    for (std::size_t k = 0; k < setup_.insertions.size(); ++k) {
+      const auto m =
+          static_cast<std::size_t>(index_of(setup_.materials, setup_.insertions[k].material, "material"));
+      shortest =
+          std::min(shortest, material::rayleigh_time(materials_[m], bulk_->inserters()[k].smallest_sphere()));
     }
     wanted *= shortest;
   }

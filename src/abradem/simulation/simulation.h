@@ -246,7 +246,7 @@ class Simulation {
   struct InsertionLimits {
     double rayleigh = 0.0, hertz = 0.0, number = 0.0;
   };
-  [[nodiscard]] InsertionLimits limits_of(const InsertionSetup& insertion) const;
+  [[nodiscard]] InsertionLimits limits_of(const Inserter& inserter) const;
 
   Setup setup_;
   std::vector<material::Material> materials_;

@@ -59,7 +59,8 @@ void Simulation::watch_stability() {
 
 /// Of the smallest spheres of an insertion, that meet each other and the walls with the largest speed met,
 /// before the run that which they are given.
-Simulation::InsertionLimits Simulation::limits_of(const InsertionSetup& i) const {
+Simulation::InsertionLimits Simulation::limits_of(const Inserter& inserter) const {
+  const InsertionSetup& i = inserter.setup();
   InsertionLimits limits;
   const auto index_of = [this](const std::string& name) {
     return static_cast<int>(std::ranges::find(setup_.materials, name, &MaterialSetup::name) -
@@ -69,7 +70,7 @@ Simulation::InsertionLimits Simulation::limits_of(const InsertionSetup& i) const
   const material::Material& material = materials_[static_cast<std::size_t>(m)];
   const double R = smallest_radius(i);
   const double mass = material.density * 4.0 / 3.0 * std::numbers::pi * R * R * R;
-  limits.rayleigh = dt_ / material::rayleigh_time(material, R);
+  limits.rayleigh = dt_ / material::rayleigh_time(material, inserter.smallest_sphere());
   double speed = std::max(norm(i.velocity), bulk_->fastest());
   for (const PlacedSphere& s : i.placed) speed = std::max(speed, norm(s.velocity));
   if (speed == 0.0) return limits;
@@ -109,8 +110,8 @@ std::vector<StabilityLimit> Simulation::limits() const {
             std::max(number, scheme_of(S, contact::step_damping(properties, S, mass), mass, dt_).number());
     }
   }
-  for (const InsertionSetup& i : setup_.insertions) {
-    const InsertionLimits met = limits_of(i);
+  for (std::size_t k = 0; k < setup_.insertions.size(); ++k) {
+    const InsertionLimits met = limits_of(bulk_->inserters()[k]);
     rayleigh = std::max(rayleigh, met.rayleigh);
     hertz = std::max(hertz, met.hertz);
     if (steps_ == 0) number = std::max(number, met.number);

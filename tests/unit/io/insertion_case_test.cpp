@@ -183,5 +183,85 @@ volume = { low = [0, 0, 1], high = [1, 1, 2] }
   std::filesystem::remove_all(folder);
 }
 
+constexpr const char* kPebbles = R"([shape.pebble]
+spheres = [{ position = [0, 0, 0], radius = "2 mm" }, { position = ["2 mm", 0, 0], radius = "1.5 mm" }]
+[shape.stone]
+fit = { file = "stone.stl", unit = "mm", spheres = 8 }
+[insertion.pebbles]
+material = "glass"
+shape = "pebble"
+number = 20
+volume = { low = [0, 0, 1], high = [1, 1, 2] }
+[insertion.stones]
+material = "glass"
+shape = "stone"
+number = 20
+size = { kind = "uniform", low = "2 mm", high = "3 mm" }
+volume = { low = [0, 0, 2], high = [1, 1, 3] }
+)";
+
+TEST(ShapeCase, IsReadAndWrittenBack) {
+  const simulation::Setup setup = read(std::string(kHead) + kPair + kPebbles, "/somewhere");
+  ASSERT_EQ(setup.shapes.size(), 2u);
+  EXPECT_EQ(setup.shapes[0].name, "pebble");
+  EXPECT_EQ(setup.shapes[0].spheres,
+            (std::vector<geometry::Ball>{{{0, 0, 0}, 2e-3}, {{2e-3, 0, 0}, 1.5e-3}}));
+  EXPECT_EQ(setup.shapes[1].fit->file, "/somewhere/stone.stl");
+  EXPECT_EQ(setup.shapes[1].fit->unit, 1e-3);
+  EXPECT_EQ(setup.shapes[1].fit->count, 8);
+  EXPECT_EQ(setup.insertions[0].shape, "pebble");
+  EXPECT_EQ(read(resolved_case(setup)), setup);
+}
+
+TEST(ShapeCase, RefusesWhatCannotBe) {
+  const std::string head = std::string(kHead) + kPair;
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = kPebbles;
+    text.replace(text.find(from), from.size(), to);
+    return refusal(head + text);
+  };
+  EXPECT_NE(with("shape = \"pebble\"", "shape = \"peble\"").find("no shape 'peble'; did you mean 'pebble'?"),
+            std::string::npos);
+  EXPECT_NE(with("spheres = [", "fit = { file = \"a.stl\", unit = \"mm\" }\nspheres = [")
+                .find("has both spheres and a fit"),
+            std::string::npos);
+  EXPECT_NE(with("fit = {", "#").find("needs spheres = [{ position"), std::string::npos);
+  EXPECT_NE(with("radius = \"1.5 mm\"", "radius = 0").find("radius"), std::string::npos);
+  EXPECT_NE(with("spheres = 8", "spheres = 0").find("1 to 200"), std::string::npos);
+  EXPECT_NE(with("spheres = [{ position = [0, 0, 0], radius = \"2 mm\" }, ", "spheres = [3, ")
+                .find("'spheres' is a list of tables"),
+            std::string::npos);
+}
+
+TEST(ShapeCase, FitsSpheresToAClosedMeshAlone) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "abradem_shape_case";
+  std::filesystem::create_directories(folder);
+  const auto write = [&](std::size_t faces) {
+    std::ofstream obj(folder / "stone.obj");
+    obj << "v 0 0 0\nv 4 0 0\nv 0 3 0\nv 4 3 0\nv 0 0 2\nv 4 0 2\nv 0 3 2\nv 4 3 2\n";
+    const char* face[]{"1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"};
+    for (std::size_t k = 0; k < faces; ++k) obj << "f " << face[k] << "\n";
+  };
+  std::string text = std::string(kHead) + kPair + kPebbles;
+  text.replace(text.find("stone.stl"), 9, "stone.obj");
+  simulation::Setup setup = read(text, folder);
+  write(6);
+  read_insertion_files(setup);
+  const simulation::ShapeFitSetup& fit = *setup.shapes[1].fit;
+  EXPECT_EQ(fit.fit.balls.size(), 8u);
+  EXPECT_NEAR(fit.solid.volume, 24e-9, 1e-20);
+  EXPECT_NEAR(fit.solid.moments.z, 24e-9 * 25e-6 / 12.0, 1e-24);
+  EXPECT_LT(std::abs(fit.fit.volume_error), 1e-3);
+  write(5);
+  try {
+    read_insertion_files(setup);
+    FAIL() << "a box without a side";
+  } catch (const GeometryError& e) {
+    EXPECT_NE(std::string(e.what()).find("shape 'stone': the mesh"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("is not closed (4 open edges"), std::string::npos) << e.what();
+  }
+  std::filesystem::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace abradem::io

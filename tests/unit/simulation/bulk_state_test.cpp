@@ -79,13 +79,52 @@ TEST(BulkState, GoesOnToTheSameBits) {
   }
 }
 
+/// What comes in at a rate is clumps, most of those at the start are spheres; some of both leave.
+simulation::Setup clumps_on_a_shaking_plate() {
+  simulation::Setup setup = feed_on_a_shaking_plate(ContactRule::resolved);
+  setup.shapes = {
+      {"grain", {{{0, 0, 0}, 1e-3}, {{1e-3, 0, 0}, 0.7e-3}, {{0.2e-3, 0.9e-3, 0.3e-3}, 0.8e-3}}, {}}};
+  setup.insertions[0].number = 60;
+  setup.insertions[1].shape = "grain";
+  return setup;
+}
+
+TEST(BulkState, OfClumpsGoesOnToTheSameBits) {
+  const simulation::Setup setup = clumps_on_a_shaking_plate();
+  test::expect_same_bits_from_anywhere(setup, 1200);
+  Simulation run(setup);
+  finish(run, 1200);
+  EXPECT_GT(run.bulk_state().removed, 0u);
+  EXPECT_GT(run.bulk()->clumps().size(), 10u);
+  EXPECT_LT(run.bulk()->clumps().clumps().front().id, run.bulk()->clumps().clumps().back().id);
+  test::expect_same_bits_on_other_threads(setup, 700, 1400);
+}
+
+/// Enough of them to be shared out among threads, over a border where space repeats itself.
+TEST(BulkState, OfManyClumpsIsTheSameOnOtherThreads) {
+  simulation::Setup setup = clumps_on_a_shaking_plate();
+  setup.particles.clear();
+  setup.walls[0].mesh.length = setup.walls[0].mesh.width = 30e-3;
+  setup.walls.resize(1);
+  setup.insertions.erase(setup.insertions.begin());
+  setup.insertions[0].number = 400;
+  setup.insertions[0].mass = {};
+  setup.insertions[0].mass_rate = {};
+  setup.insertions[0].volume.high.z = 20e-3;
+  setup.domain = DomainSetup{{-9e-3, -9e-3, -5e-3}, {9e-3, 9e-3, 25e-3}, Outside::remove, Periodic::xy};
+  test::expect_same_bits_on_other_threads(setup, 100, 400);
+}
+
 TEST(BulkState, GoesOnOnOtherThreads) {
   const simulation::Setup setup = feed_on_a_shaking_plate(ContactRule::resolved);
   test::expect_same_bits_on_other_threads(setup, 700, 1400);
 }
 
-TEST(BulkState, DamagedIsRefusedOrCanBeSteppedOn) {
-  const simulation::Setup setup = feed_on_a_shaking_plate(ContactRule::resolved);
+class DamagedBulkState : public testing::TestWithParam<bool> {};
+
+TEST_P(DamagedBulkState, IsRefusedOrCanBeSteppedOn) {
+  const simulation::Setup setup =
+      GetParam() ? clumps_on_a_shaking_plate() : feed_on_a_shaking_plate(ContactRule::resolved);
   Simulation run(setup);
   finish(run, 600);
   const std::string good = saved(run);
@@ -103,6 +142,8 @@ TEST(BulkState, DamagedIsRefusedOrCanBeSteppedOn) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(SpheresAndClumps, DamagedBulkState, testing::Bool());
 
 }  // namespace
 }  // namespace abradem::simulation

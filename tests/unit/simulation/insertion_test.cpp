@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "abradem/core/error.h"
 
@@ -98,6 +99,87 @@ TEST(Inserter, KeepsToItsRateAndItsMass) {
     EXPECT_NEAR(inserter.inserted_mass(), wanted, 2.0 * one) << t;
   }
   EXPECT_NEAR(inserter.inserted_mass(), 0.05, 0.5 * one);
+}
+
+ClumpShape dumbbell() {
+  return clump_shape({"dumbbell", {{{-1e-3, 0, 0}, 1.5e-3}, {{1e-3, 0, 0}, 1.5e-3}}, {}});
+}
+
+TEST(Inserter, PlacesClumpsAtEveryTurnInsideTheBoxWithoutOverlaps) {
+  InsertionSetup setup = thousand_in_a_box();
+  setup.size.kind = SizeKind::uniform;
+  setup.size.low = 1.5e-3, setup.size.high = 3e-3;
+  const ClumpShape shape = dumbbell();
+  Inserter inserter(setup, 0, 2500.0, 1, 1, &shape);
+  EXPECT_NEAR(inserter.smallest_sphere(), 1.5e-3 * 1.5e-3 / shape.radius, 1e-15);
+  contact::Spheres present;
+  contact::SphereRow boulder;
+  boulder.set_position({0.05, 0.05, 0.05});
+  boulder.radius = 0.02;
+  present.row.push_back(boulder);
+  present.id.push_back(0);
+  const auto clumps = inserter.insert_clumps(0.0, present);
+  ASSERT_EQ(clumps.size(), 1000u);
+  double gap = 1.0, across = 0.0;
+  const auto sphere = [&](const Clumps::Birth& b, std::size_t k) {
+    return geometry::Ball{b.position + b.turn.turn(b.radius * shape.spheres[k].centre),
+                          b.radius * shape.spheres[k].radius};
+  };
+  for (std::size_t i = 0; i < clumps.size(); ++i) {
+    across += std::abs(clumps[i].turn.turn({1, 0, 0}).z) / 1000.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const geometry::Ball a = sphere(clumps[i], k);
+      for (const double x : {a.centre.x, a.centre.y, a.centre.z}) {
+        EXPECT_GE(x, a.radius);
+        EXPECT_LE(x, 0.1 - a.radius);
+      }
+      gap = std::min(gap, norm(a.centre - boulder.position()) - a.radius - boulder.radius);
+      for (std::size_t j = i + 1; j < clumps.size(); ++j)
+        for (std::size_t m = 0; m < 2; ++m) {
+          const geometry::Ball b = sphere(clumps[j], m);
+          gap = std::min(gap, norm(a.centre - b.centre) - a.radius - b.radius);
+        }
+    }
+  }
+  EXPECT_GE(gap, 0.0);
+  EXPECT_NEAR(across, 0.5, 0.037);  // four standard errors, 0.29 / sqrt(1000)
+  // The turns have a stream of their own: spheres of the same insertion have the same sizes.
+  const auto spheres = Inserter(setup, 0, 2500.0, 1, 1).insert(0.0, {});
+  EXPECT_EQ(spheres[0].radius, clumps[0].radius);
+}
+
+TEST(Inserter, SaysWhenAShapeDoesNotFitOrItsVolumeIsFull) {
+  const ClumpShape shape = dumbbell();
+  InsertionSetup setup = thousand_in_a_box();
+  const auto refusal = [&] {
+    try {
+      static_cast<void>(Inserter(setup, 0, 2500.0, 1, 1, &shape).insert_clumps(0.0, {}));
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  setup.number = 4000;
+  EXPECT_NE(refusal().find("insertion 'feed': its volume is full after "), std::string::npos) << refusal();
+  setup.number = 1;
+  setup.volume.high = {0.1, 0.1, 7e-3};  // a sphere of 3 mm goes in, the dumbbell is 8 mm long
+  EXPECT_NE(refusal().find("too small for one 'dumbbell'"), std::string::npos) << refusal();
+  setup.volume.high = {0.1, 0.1, 9e-3};
+  EXPECT_EQ(refusal(), "accepted");
+}
+
+TEST(ClumpShape, IsCentredInItsPrincipalAxes) {
+  const ClumpShape row = clump_shape({"row", {{{5, 5, 5}, 1}, {{5, 7, 5}, 1}, {{5, 9, 5}, 1}}, {}});
+  const double unit = std::cbrt(3.0);
+  EXPECT_NEAR(row.radius, unit, 1e-12);
+  EXPECT_NEAR(norm(row.spheres[1].centre), 0.0, 1e-12);
+  EXPECT_NEAR(std::abs(row.spheres[0].centre.x), 2.0 / unit, 1e-12);
+  EXPECT_NEAR(row.bounding, 3.0 / unit, 1e-12);
+  const double m = 4.0 / 3.0 * std::numbers::pi / std::pow(unit, 5.0);
+  EXPECT_NEAR(row.inertia.x, 3 * 0.4 * m, 1e-11);
+  EXPECT_NEAR(row.inertia.z, 3 * 0.4 * m + 8.0 * m, 1e-11);
+  EXPECT_THROW(static_cast<void>(clump_shape({"none", {}, {}})), InputError);
+  EXPECT_THROW(static_cast<void>(clump_shape({"point", {{{}, 0.0}}, {}})), InputError);
 }
 
 TEST(DrawRadius, HasTheMeanAndTheSpreadAsked) {
