@@ -16,6 +16,7 @@ constexpr std::array kMotions{"none"sv, "rotation"sv, "translation"sv, "oscillat
 constexpr std::array kTableEnds{"hold"sv, "repeat"sv};
 constexpr std::array kContactRules{"patch"sv, "resolved"sv, "per_triangle"sv, "auto"sv};
 constexpr std::array kDeformations{"none"sv, "conserving"sv, "paper"sv};
+constexpr std::array kSides{"front"sv, "both"sv};
 constexpr std::array kFootprints{"hertz"sv, "overlap"sv};
 constexpr std::array kGuides{"none"sv, "vertical"sv};
 
@@ -46,12 +47,26 @@ const std::array kRows{
         .need = Need::has_default,
         .slot = ABRADEM_CHOICE(wall->contact),
         .choices = kContactRules,
+        .default_note =
+            "`\"patch\"`; where all particles are in numbers `\"auto\"` (`\"resolved\"` for a sheet with "
+            "two sides)",
         .example = "\"patch\"",
         .doc = "How a sphere meets the triangles: as one patch independent of the mesh (patch), as one point "
                "per "
                "connected flat part (resolved), triangle by triangle (per_triangle), or by each contact as "
                "patch "
                "where its triangles are fine and as resolved where they are coarse (auto)."},
+    Row{.section = "wall.*",
+        .key = "sides",
+        .kind = Kind::choice,
+        .need = Need::has_default,
+        .slot = ABRADEM_CHOICE(wall->sides),
+        .choices = kSides,
+        .example = "\"both\"",
+        .doc =
+            "The sides that can be touched: of a solid the one its triangles' normals point to (front), of a "
+            "thin sheet of one layer of triangles both, which takes contact = \"resolved\" and no "
+            "deformation."},
     Row{.section = "wall.*",
         .key = "deformation",
         .kind = Kind::choice,
@@ -87,6 +102,15 @@ const std::array kRows{
         .default_note = "it stays",
         .example = "\"0.5 s\"",
         .doc = "Time at which the wall is taken away, as a gate is."},
+
+    Row{.section = "wall.*",
+        .key = "thickness",
+        .need = Need::optional,
+        .slot = ABRADEM_SLOT(wall->thickness),
+        .unit = "mm",
+        .limits = kPositive,
+        .example = "\"20 mm\"",
+        .doc = "Thickness of the liner that may wear off; the report says when its worst places get there."},
 
     Row{.section = "wall.*.mesh",
         .key = "shape",
@@ -303,6 +327,27 @@ const std::array kRows{
         .unit = "deg",
         .example = "\"30 deg\"",
         .doc = "How far it is turned about its axis, before it is displaced."},
+
+    Row{.section = "region.*",
+        .key = "wall",
+        .kind = Kind::text,
+        .slot = ABRADEM_SLOT(region->wall),
+        .example = "\"liner\"",
+        .doc = "Name of the wall that it is a part of."},
+    Row{.section = "region.*",
+        .key = "low",
+        .kind = Kind::vector,
+        .slot = ABRADEM_SLOT(region->low),
+        .unit = "mm",
+        .example = "[\"-50 mm\", \"-50 mm\", \"-10 mm\"]",
+        .doc = "Lowest corner of the box, in the wall's frame."},
+    Row{.section = "region.*",
+        .key = "high",
+        .kind = Kind::vector,
+        .slot = ABRADEM_SLOT(region->high),
+        .unit = "mm",
+        .example = "[\"50 mm\", \"50 mm\", \"10 mm\"]",
+        .doc = "Highest corner."},
 
     Row{.section = "particle.*",
         .key = "material",
