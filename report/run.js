@@ -123,6 +123,52 @@ function surfaceFigure(data, facts, arrays) {
   });
 }
 
+// ---------------------------------------------------------------- what the walls suffered, in 3D
+function wearMapFigure(map, arrays) {
+  if (!map) return;
+  const { x, y, z, i, j, k } = arrays, count = (n) => n.toLocaleString('en').replaceAll(',', '\u202f');
+  figure('fig-wear-map', (controls) => {
+    const wall = map.walls[Number(controls.wall.value)], quantity = map.quantities.find(({ key }) => key === controls.quantity.value);
+    const [v0, vertices] = wall.vertices, [t0, triangles] = wall.triangles, part = (values) => values.subarray(v0, v0 + vertices);
+    const corners = [i, j, k].map((corner) => Array.from(corner.subarray(t0, t0 + triangles), (v) => v - v0));
+    const values = Array.from(arrays[quantity.key].subarray(t0, t0 + triangles)), most = largest(values);
+    if (!(most > 0)) return { empty: `This wall has no ${quantity.title.replace(/ \[.*\]$/, '')}.` };
+    const [px, py, pz] = [part(x), part(y), part(z)];
+    const range = (p) => { const a = smallest(p), b = largest(p), pad = 0.02 * (b - a) + 1e-6; return [a - pad, b + pad]; };
+    const ranges = [range(px), range(py), range(pz)], size = largest(ranges.map((r) => r[1] - r[0])), far = narrow() ? 1.5 : 1;
+    // Axes of a thin wall would crowd: its short side has none.
+    const ratio = (r) => Math.max(.02, 1.4 * (r[1] - r[0]) / size), shown = (r) => ratio(r) > .15;
+    return {
+      traces: [{
+        type: 'mesh3d', x: px, y: py, z: pz, i: corners[0], j: corners[1], k: corners[2], intensity: values, intensitymode: 'cell', cmin: 0, cmax: most,
+        colorscale: kDepthScale, flatshading: true, lighting: { ambient: .85, diffuse: .35, specular: .03, roughness: .95, fresnel: .02 },
+        lightposition: { x: -2000, y: -4000, z: 9000 }, hoverinfo: 'none',
+        colorbar: narrow() ? { orientation: 'h', y: -0.02, yanchor: 'top', thickness: 12, len: .9, title: { text: quantity.title, side: 'top' }, outlinewidth: 0, tickfont: { size: 11.5 }, exponentformat: 'power' }
+                           : { thickness: 14, len: .75, x: 1.0, title: { text: quantity.title, side: 'top' }, outlinewidth: 0, tickfont: { size: 12 }, exponentformat: 'power' },
+      }],
+      layout: {
+        margin: { l: 0, r: 0, t: 8, b: narrow() ? 50 : 8 }, uirevision: wall.name, dragmode: 'orbit',
+        scene: { uirevision: wall.name, dragmode: 'orbit', aspectmode: 'manual', aspectratio: { x: ratio(ranges[0]), y: ratio(ranges[1]), z: ratio(ranges[2]) },
+                 camera: { eye: { x: .9 * far, y: -1.35 * far, z: 1.0 * far }, center: { x: 0, y: 0, z: -.1 } },
+                 xaxis: sceneAxis('x [mm]', { range: ranges[0], visible: shown(ranges[0]) }), yaxis: sceneAxis('y [mm]', { range: ranges[1], nticks: 4, visible: shown(ranges[1]) }),
+                 zaxis: sceneAxis('z [mm]', { range: ranges[2], visible: shown(ranges[2]) }) },
+      },
+      buttons: ['zoom3d', 'pan3d', 'orbitRotation', 'resetCameraDefault3d'],
+      caption: `'${wall.name}' in its last shape, ${triangles < wall.mesh_triangles ? `the ${count(triangles)} of its ${count(wall.mesh_triangles)} triangles under the greatest pressure` : `${count(triangles)} triangles`}. `
+             + `Most on one of them: ${digits(most)} ${quantity.title.match(/\[(.*)\]$/)[1].replace('-', '')}`.trimEnd() + `. Drag to turn, ${narrow() ? 'pinch' : 'scroll'} to zoom.`,
+    };
+  }, 'wall-maps.csv', () => {
+    let text = `wall,${map.quantities.map(({ key }) => key).join(',')},x_mm,y_mm,z_mm\n`;
+    map.walls.forEach((wall, w) => {
+      for (let t = wall.triangles[0]; t < wall.triangles[0] + wall.triangles[1]; ++t) {
+        const middle = [x, y, z].map((p) => ((p[i[t]] + p[j[t]] + p[k[t]]) / 3).toFixed(3));
+        text += `${w},${map.quantities.map(({ key }) => Number(arrays[key][t].toPrecision(7))).join(',')},${middle.join(',')}\n`;
+      }
+    });
+    return text;
+  });
+}
+
 // ---------------------------------------------------------------- volume
 function volumeFigure({ revolutions }, { measured }) {
   figure('fig-volume', () => {
@@ -258,6 +304,14 @@ Charts.start(async () => {
   }
   surfaceFigure(data, facts, arrays);
   volumeFigure(data, facts);
+  const map = facts.wear_map;
+  if (map) {
+    const parts = {};
+    for (const name of ['x', 'y', 'z']) parts[name] = await inflateNumbers(`wm-${name}`, map.position_step);
+    for (const name of ['i', 'j', 'k']) parts[name] = await inflateNumbers(`wm-${name}`, 1);
+    for (const { key, step } of map.quantities) parts[key] = await inflateNumbers(`wm-${key}`, step);
+    wearMapFigure(map, parts);
+  }
   if (!document.getElementById('h-groove')) return;  // particles in numbers make no groove
   profileFigure(data, facts);
   spreadFigure('fig-depth-spread', data, { column: 'depth_mm', factor: 1000, unit: 'µm', noun: 'depth', test: 'depth_p_chi2', color: '--s1' });

@@ -198,6 +198,39 @@ TEST(ImpactLaws, RollingWearsNothingAndRestStrikesOnce) {
   EXPECT_LE(run.impacts_on(0).count(), 3u);
 }
 
+/// Cohesion acts from the first touch on, and the laws count speed and angle at the first touch: they wear
+/// the same whether the ball parts or sticks, and a ball that sticks and swings has struck once.
+TEST(ImpactLaws, CohesionLeavesAnImpactWhatItIs) {
+  constexpr double kSpeed = 0.4, kAngle = 40.0 * kDegree;
+  WorstError error("error");
+  for (const Cohesion cohesion : {Cohesion::none, Cohesion::sjkr, Cohesion::jkr})
+    for (const double strength : {1.0, 100.0}) {
+      SphereOnMesh scene = ball(kSpeed * std::sin(kAngle), kSpeed * std::cos(kAngle), 0.5, 0.2);
+      scene.contact = ContactRule::resolved;
+      scene.end = 2e-3;
+      simulation::Setup setup = scene.setup();
+      setup.materials[1].hardness = 1.4e9;
+      setup.contacts[0].cohesion = cohesion;
+      setup.contacts[0].cohesion_energy_density = 1e6 * strength;
+      setup.contacts[0].work_of_adhesion = 0.05 * strength;
+      WearSetup wear{.abrader = "ball", .worn = "wall"};
+      wear.laws = {WearLaw::finnie, WearLaw::oka};
+      wear.finnie_coefficient = 1e-10;
+      setup.wear = {wear};
+      Simulation run(setup, [&](const MeshSetup&, std::uint64_t) { return scene.mesh; });
+      while (!run.finished()) run.step();
+      EXPECT_EQ(run.impacts_on(0).count(), 1u) << static_cast<int>(cohesion) << ", " << strength;
+      const wear::Impact impact{kSpeed, kAngle, scene.mass(), 2.0 * scene.radius};
+      const wear::Laws& laws = run.wear_laws(0, 1);
+      EXPECT_LT(error.note(relative_error(run.law_volumes(0)[at(Mechanism::finnie)],
+                                          wear::finnie_volume(*laws.finnie, impact))),
+                1e-9);
+      EXPECT_LT(error.note(relative_error(run.law_volumes(0)[at(Mechanism::oka)],
+                                          wear::oka_volume(*laws.oka, impact))),
+                1e-9);
+    }
+}
+
 /// A run put back in the middle of its impacts goes on to the same bits and the same account.
 TEST(ImpactLaws, ARunPutBackAmidImpactsGoesOnTheSame) {
   for (const bool plane : {false, true}) {

@@ -71,6 +71,17 @@ struct AnalyseArguments {
 /// Measures the grooves of measured profiles, and tests them.
 int analyse_command(const AnalyseArguments& arguments);
 
+struct RewearArguments {
+  std::string folder;                  ///< of a run that kept maps
+  std::string law;                     ///< laws, separated by commas; empty: those of the run
+  std::string pair;                    ///< "abrader/worn" that `law` is for; empty: all
+  std::vector<std::string> overrides;  ///< of keys of [wear]
+  std::string name;                    ///< of what is written; empty: the next number
+  bool quiet = false, json = false;
+};
+/// Works out the wear by other laws or coefficients from what a run has recorded.
+int rewear_command(const RewearArguments& arguments);
+
 struct CheckArguments {
   std::string path;
   std::vector<std::string> overrides;

@@ -25,6 +25,7 @@ struct Arguments {
   cli::SweepArguments sweep;
   cli::CalibrateArguments calibrate;
   cli::AnalyseArguments analyse;
+  cli::RewearArguments rewear;
   cli::CheckArguments check;
   cli::NewArguments create;
   std::string report_folder;
@@ -170,6 +171,32 @@ void declare_resume(CLI::App& app, cli::ResumeArguments& a) {
   resume->add_flag("--json", a.json, "Print run.json to stdout at the end");
 }
 
+void declare_rewear(CLI::App& app, cli::RewearArguments& a) {
+  CLI::App* rewear = app.add_subcommand(
+      "rewear", "Work out the wear by another law or coefficient from a run's maps, without running again");
+  rewear->add_option("DIR", a.folder, "Output folder of a run that kept maps")->required();
+  rewear
+      ->add_option("--law", a.law,
+                   "Law, or several with commas: archard, shear_work, finnie, oka, impact_energy (default: "
+                   "those of the run)")
+      ->type_name("LAWS");
+  rewear->add_option("--pair", a.pair, "The pair that --law is for (default: all of the case)")
+      ->type_name("ABRADER/WORN");
+  rewear
+      ->add_option("--set", a.overrides,
+                   "Another key of [wear], as in --set 'wear.\"ore/steel\".wear_coefficient=2e-12 1/Pa'; may "
+                   "be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  rewear
+      ->add_option("--name", a.name,
+                   "Name of what is written into DIR: rewear_NAME.html and tables/rewear_NAME*.csv (default: "
+                   "the next free number)")
+      ->type_name("NAME");
+  rewear->add_flag("--quiet", a.quiet, "No messages, only warnings and errors");
+  rewear->add_flag("--json", a.json, "Print the volumes as JSON");
+}
+
 void declare(CLI::App& app, Arguments& a) {
   app.set_version_flag(
       "--version", [] { return cli::version_text(); }, "Print version, commit, compiler and flags");
@@ -196,6 +223,7 @@ void declare(CLI::App& app, Arguments& a) {
   declare_sweep(app, a.sweep);
   declare_calibrate(app, a.calibrate);
   declare_analyse(app, a.analyse);
+  declare_rewear(app, a.rewear);
 
   CLI::App* check = app.add_subcommand("check", "Say what is wrong with a case file or a mesh");
   check->add_option("CASE|MESH", a.check.path, "Case file (TOML), or mesh (.stl, .obj, .ply)")->required();
@@ -225,6 +253,7 @@ int dispatch(const CLI::App& app, const Arguments& a) {
   if (app.got_subcommand("sweep")) return cli::sweep_command(a.sweep);
   if (app.got_subcommand("calibrate")) return cli::calibrate_command(a.calibrate);
   if (app.got_subcommand("analyse")) return cli::analyse_command(a.analyse);
+  if (app.got_subcommand("rewear")) return cli::rewear_command(a.rewear);
   if (app.got_subcommand("check")) return cli::check_command(a.check);
   if (app.got_subcommand("report")) return cli::report_command(a.report_folder);
   if (app.got_subcommand("new")) return cli::new_command(a.create);

@@ -53,14 +53,30 @@ bool stronger(const PointContact& a, const PointContact& b) noexcept {
 
 }  // namespace
 
+/// What the sphere has come since the candidates were gathered, and the surface towards it.
+void PointContactFinder::travel(const MeshCandidates& candidates, const Vec3& c, double R) {
+  if (stamp_ != candidates.stamp() || radius_ != R) {
+    wake_.assign(candidates.triangle_count(), 0.0);
+    way_ = 0.0;
+  } else {
+    way_ += norm(c - last_) + candidates.odometer() - odometer_;
+  }
+  stamp_ = candidates.stamp();
+  radius_ = R;
+  last_ = c;
+  odometer_ = candidates.odometer();
+}
+
 void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip,
                                  bool sheet) {
+  travel(candidates, c, R);
   touched_.clear();
   excess_.assign(candidates.x.size(), -1.0);
   const double inverse = 1.0 / (R * R);
   for (std::size_t i = 0; i < candidates.node_count(); ++i)
     excess_[i] = 1.0 - norm2(candidates.node_position(i) - c) * inverse;
   for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
+    if (wake_[t] > way_) continue;
     const double highest = std::max(
         {excess_[at(candidates.v0[t])], excess_[at(candidates.v1[t])], excess_[at(candidates.v2[t])]});
     if (highest + candidates.longest[t] * inverse / 3.0 <= 0.0) continue;  // nowhere inside the ball
@@ -69,6 +85,7 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
         candidates.node_position(at(candidates.v2[t])));
     const Vec3 offset = c - closest.point;
     const double distance = norm(offset);
+    if (distance >= R) wake_[t] = way_ + 0.999 * (distance - R);  // less by what rounding might do
     if (distance >= R || distance == 0.0) continue;
     // A triangle seen from behind belongs to the far side of the solid.
     if (!sheet &&

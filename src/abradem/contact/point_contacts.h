@@ -47,6 +47,7 @@ class PointContactFinder {
 
  private:
   void collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip, bool sheet);
+  void travel(const MeshCandidates& candidates, const Vec3& c, double R);
   void find_flat_sets(const MeshCandidates& candidates);
 
   std::vector<PointContact> touched_;  // nearest point of every triangle that the ball cuts
@@ -54,6 +55,11 @@ class PointContactFinder {
   std::vector<int> set_;
   std::vector<double> excess_, raw_;
   TipCorrection correction_;
+  // Triangles out of reach: how far the sphere and the surface must have come before each can be touched.
+  std::vector<double> wake_;  // [m]
+  double way_ = 0.0, odometer_ = 0.0, radius_ = 0.0;
+  Vec3 last_;
+  std::uint64_t stamp_ = 0;  // of the candidates that these are of
 };
 
 }  // namespace abradem::contact

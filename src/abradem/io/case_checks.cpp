@@ -64,6 +64,7 @@ class Checker {
     check_wear_pairs();
     check_wear_laws();
     check_ploughing();
+    check_regions();
     for (const WallSetup& wall : setup_.walls) check_wall(wall);
     for (const ParticleSetup& particle : setup_.particles) check_particle(particle);
     check_insertions();
@@ -298,8 +299,37 @@ class Checker {
     }
   }
 
+  void check_regions() {
+    if (!good("region")) return;
+    if (setup_.regions.size() > 1000)
+      error("region", fmt::format("{} regions; at most 1000 are possible", setup_.regions.size()));
+    for (const RegionSetup& region : setup_.regions) {
+      const std::string path = path_of("region", region.name);
+      const auto wall = std::ranges::find(setup_.walls, region.wall, &WallSetup::name);
+      if (wall == setup_.walls.end() && good("wall")) {
+        std::vector<std::string_view> known;
+        for (const WallSetup& w : setup_.walls) known.push_back(w.name);
+        const std::string nearest = core::nearest_spelling(region.wall, known);
+        error(path + ".wall",
+              nearest.empty()
+                  ? fmt::format("no wall '{}'; the case has: {}", region.wall, fmt::join(known, ", "))
+                  : fmt::format("no wall '{}'; did you mean '{}'?", region.wall, nearest));
+      } else if (wall != setup_.walls.end() && wall->mesh.shape == MeshShape::plane) {
+        error(path + ".wall", fmt::format("wall '{}' is a plane, which has no elements", region.wall));
+      }
+      const Vec3 e = region.high - region.low;
+      if (good(path + ".low") && good(path + ".high") && !(e.x > 0.0 && e.y > 0.0 && e.z > 0.0))
+        error(path + ".high", "every coordinate of high must be above that of low");
+      const bool named_as_wall =
+          std::ranges::find(setup_.walls, region.name, &WallSetup::name) != setup_.walls.end();
+      if (named_as_wall) error(path, "has the name of a wall, under which the rest of that wall is counted");
+    }
+  }
+
   void check_ploughing() {
     if (!setup_.ploughing || setup_.ploughing->removed_fraction == 1.0 || !good("wall")) return;
+    if (setup_.output.maps == simulation::Maps::on)
+      error("output.maps", "what [ploughing] moves aside has no map; use maps = \"off\"");
     for (const WallSetup& wall : setup_.walls)
       if (wall.deformation == DeformationRule::paper)
         error(

@@ -12,6 +12,7 @@ using namespace std::string_view_literals;
 
 // In the order of the enumerations of setup.h.
 constexpr std::array kFrames{"all"sv, "ends"sv, "none"sv};
+constexpr std::array kMaps{"auto"sv, "on"sv, "off"sv};
 constexpr std::array kMethods{"dynamic"sv, "quasi_static"sv};
 constexpr std::array kStabilities{"stop"sv, "warn"sv};
 constexpr std::array kStudyPages{"table"sv, "paper"sv, "scaling"sv};
@@ -95,6 +96,16 @@ const std::array kRows{
         .example = "\"all\"",
         .doc = "Outputs whose surfaces are written for ParaView: all, the new and the last one (ends), or "
                "none."},
+    Row{.section = "output",
+        .key = "maps",
+        .kind = Kind::choice,
+        .need = Need::has_default,
+        .slot = ABRADEM_CHOICE(setup->output.maps),
+        .choices = kMaps,
+        .example = "\"on\"",
+        .doc = "Map of what each element of a wall suffers, and its spectra of force, speed and angle, from "
+               "which `abradem rewear` works out other laws: of walls that a [wear] pair names, where "
+               "particles come in numbers (auto) or always (on), or of none (off)."},
     Row{.section = "output",
         .key = "contours",
         .kind = Kind::integer,

@@ -45,6 +45,7 @@ Target target_with_defaults() {
     s.contacts.emplace_back();
     s.wear.emplace_back();
     s.walls.emplace_back().motion.rows.emplace_back();
+    s.regions.emplace_back();
     s.particles.emplace_back();
     s.ploughing.emplace();
     s.insertions.emplace_back();
@@ -64,6 +65,7 @@ Target target_with_defaults() {
           .wall = setup.walls.data(),
           .motion = &setup.walls[0].motion,
           .motion_row = setup.walls[0].motion.rows.data(),
+          .region = setup.regions.data(),
           .particle = setup.particles.data(),
           .insertion = setup.insertions.data(),
           .variation = setup.study->variations.data()};

@@ -29,6 +29,7 @@ struct Target {
   simulation::WallSetup* wall = nullptr;
   simulation::MotionSetup* motion = nullptr;
   simulation::MotionRow* motion_row = nullptr;
+  simulation::RegionSetup* region = nullptr;
   simulation::ParticleSetup* particle = nullptr;
   simulation::InsertionSetup* insertion = nullptr;
   simulation::VariationSetup* variation = nullptr;

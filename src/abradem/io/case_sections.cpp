@@ -88,6 +88,17 @@ const std::array kSections{
             .count = [](const Target& t) { return t.motion->rows.size(); },
             .add = [](const Target& t) { t.motion->rows.emplace_back(); },
             .enter = [](Target& t, std::size_t i) { t.motion_row = &t.motion->rows[i]; }},
+    Section{.path = "region.*",
+            .doc =
+                "Part of a wall, for the spectra of its wear map: the elements whose unworn centres lie in "
+                "a box; the first region that holds an element has it, and what no region holds counts "
+                "under the wall's own name.",
+            .naming = Naming::name,
+            .count = [](const Target& t) { return t.setup->regions.size(); },
+            .add = [](const Target& t) { t.setup->regions.emplace_back(); },
+            .enter = [](Target& t, std::size_t i) { t.region = &t.setup->regions[i]; },
+            .name = [](const Target& t) { return t.region->name; },
+            .rename = [](const Target& t, const std::string& name) { t.region->name = name; }},
     Section{.path = "particle.*",
             .doc = "A sphere with a name of its own: a pin, an impactor.",
             .naming = Naming::name,

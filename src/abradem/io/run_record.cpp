@@ -58,11 +58,12 @@ Json laws_json(const wear::MechanismVolumes& v) {
 
 Json walls_json(const std::vector<RunRecord::Wall>& walls) {
   Json json = Json::array();
-  for (const RunRecord::Wall& wall : walls)
-    json.push_back(
-        wall.by_laws
-            ? Json{{"name", wall.name}, {"law_volume", laws_json(wall.law)}, {"impacts", wall.impacts}}
-            : Json{{"name", wall.name}});
+  for (const RunRecord::Wall& wall : walls) {
+    Json entry{{"name", wall.name}};
+    if (wall.by_laws) entry.update({{"law_volume", laws_json(wall.law)}, {"impacts", wall.impacts}});
+    if (wall.thickness) entry["thickness_mm"] = number(kMm * *wall.thickness);
+    json.push_back(std::move(entry));
+  }
   return json;
 }
 
@@ -153,8 +154,8 @@ std::uint64_t inputs_hash(const simulation::Setup& setup) {
 void record_walls(RunRecord& record, const simulation::Simulation& run) {
   record.walls.clear();
   for (std::size_t w = 0; w < run.walls().size(); ++w)
-    record.walls.push_back(
-        {run.walls()[w].setup().name, run.wears_by_laws(), run.law_volumes(w), run.impacts_on(w).count()});
+    record.walls.push_back({run.walls()[w].setup().name, run.wears_by_laws(), run.law_volumes(w),
+                            run.impacts_on(w).count(), run.walls()[w].setup().thickness});
 }
 
 std::string counted(const simulation::Setup& setup) {

@@ -32,6 +32,7 @@ struct RunRecord {
     bool by_laws = false;          ///< does any wall wear by another law than Archard's?
     wear::MechanismVolumes law{};  ///< [m^3]
     std::uint64_t impacts = 0;
+    std::optional<double> thickness = {};  ///< of the liner [m]
   };
   std::vector<Wall> walls;
   std::vector<simulation::StabilityLimit> limits;

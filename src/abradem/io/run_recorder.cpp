@@ -9,6 +9,7 @@
 
 #include "abradem/analysis/wall_contours.h"
 #include "abradem/core/error.h"
+#include "abradem/io/wear_map_tables.h"
 
 namespace abradem::io {
 
@@ -156,18 +157,16 @@ void RunRecorder::write_frame() {
   for (std::size_t w = 0; w < run_.walls().size(); ++w) {
     const simulation::Wall& wall = run_.walls()[w];
     if (wall.is_plane() || !wall.present(run_.time())) continue;
-    // A wall that keeps its shape is written once.
-    const bool still = wall.setup().deformation == simulation::DeformationRule::none && state_.frame > 0;
+    // A wall that keeps its shape, and has no map, is written once.
+    const bool still = wall.setup().deformation == simulation::DeformationRule::none &&
+                       run_.map_of(w) == nullptr && state_.frame > 0;
     const std::string file = fmt::format("vtk/{}_{:04}.vtp", wall.setup().name, still ? 0 : state_.frame);
     if (!still) {
       const std::vector<double> depth = depths_um(wall.surface());
-      std::vector<double> volume(wall.surface().element_volume().begin(),
-                                 wall.surface().element_volume().end());
-      for (double& v : volume) v *= 1e18;
       const VtpArray points[]{{"depth_um", depth, 1}};
-      const VtpArray cells[]{{"wear_volume_um3", volume, 1}};
+      const MapArrays cells = map_arrays(run_, w);
       if (!triangles_[w]) triangles_[w].emplace(wall.surface().mesh().triangles);
-      write_vtp(folder_ / file, wall.surface().mesh().vertices, *triangles_[w], points, cells);
+      write_vtp(folder_ / file, wall.surface().mesh().vertices, *triangles_[w], points, cells.arrays);
     }
     state_.frames.push_back({time, file, static_cast<int>(w)});
   }
@@ -211,26 +210,6 @@ void RunRecorder::write_particles() {
                    static_cast<double>(s.wall_contacts), s.kinetic_energy, s.elastic_energy, s.fastest});
 }
 
-/// tables/wear.csv: the elements of the worn wall that lost material, in its reference numbering.
-void RunRecorder::write_elements() const {
-  CsvWriter table(folder_ / "tables" / "wear.csv",
-                  {"element", "x_mm", "y_mm", "z_mm", "area_mm2", "wear_volume_mm3", "wear_depth_um"});
-  if (worn_wall_) {
-    const wear::WearingSurface& surface = run_.walls()[*worn_wall_].surface();
-    const auto volume = surface.element_volume();
-    for (std::size_t t = 0; t < volume.size(); ++t) {
-      if (volume[t] == 0.0) continue;
-      const auto& v = surface.mesh().triangles[t];
-      const auto at = [&](std::size_t k) { return surface.reference()[static_cast<std::size_t>(v[k])]; };
-      const Vec3 centre = (at(0) + at(1) + at(2)) * (1.0 / 3.0);
-      const double area = 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
-      table.row({static_cast<double>(t), 1e3 * centre.x, 1e3 * centre.y, 1e3 * centre.z, 1e6 * area,
-                 1e9 * volume[t], 1e6 * volume[t] / area});
-    }
-  }
-  table.close();
-}
-
 void RunRecorder::close() {
   run_.on_step({});
   tables_.close();
@@ -239,7 +218,7 @@ void RunRecorder::close() {
   loads_.close(run_);
   force_.close();
   if (particles_) particles_->close();
-  write_elements();
+  write_wear_maps(folder_ / "tables", run_, worn_wall_);
 }
 
 }  // namespace abradem::io

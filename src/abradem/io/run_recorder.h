@@ -78,7 +78,6 @@ class RunRecorder {
   void write_frame();
   void write_spheres(const std::filesystem::path& path) const;
   void write_particles();
-  void write_elements() const;
 
   simulation::Simulation& run_;
   std::filesystem::path folder_;

@@ -23,6 +23,10 @@ struct ContactOptions {
     return normal_stiffness > 0.0 || cohesion > 0.0 || adhesion > 0.0 || rolling_spring || torsion;
   }
   [[nodiscard]] bool linear() const noexcept { return normal_stiffness > 0.0; }
+  /// Is the normal force that of Hertz with its damper, and nothing besides?
+  [[nodiscard]] bool damped_hertz() const noexcept {
+    return normal_stiffness == 0.0 && cohesion == 0.0 && adhesion == 0.0;
+  }
 };
 
 /// What a Hertz-Mindlin contact needs of two materials.

@@ -103,8 +103,12 @@ void read_optional(const Place& place, Manifest& out) {
     for (const ordered_json& warning : json["warnings"]) out.warnings.push_back(as_text(warning));
   }
   if (json.contains("walls") && json["walls"].is_array())
-    for (const ordered_json& wall : json["walls"])
-      out.walls.push_back(Place{wall, place.file, "walls."}.text("name"));
+    for (const ordered_json& wall : json["walls"]) {
+      const Place entry{wall, place.file, "walls."};
+      out.walls.push_back(entry.text("name"));
+      out.thickness_mm.push_back(wall.contains("thickness_mm") ? std::optional(entry.number("thickness_mm"))
+                                                               : std::nullopt);
+    }
   if (json.contains("setup") && json["setup"].is_object()) {
     for (const auto& [name, value] : json["setup"].items()) out.setup.emplace_back(name, as_text(value));
   }

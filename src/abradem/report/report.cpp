@@ -18,6 +18,7 @@
 #include "abradem/report/statistics_section.h"
 #include "abradem/report/text.h"
 #include "abradem/report/walls_section.h"
+#include "abradem/report/wear_map_section.h"
 
 namespace abradem::report {
 namespace {
@@ -31,39 +32,21 @@ constexpr std::size_t kMaxForceRows = 20000;
 constexpr double kPositionStep_mm = 1e-3;
 constexpr double kNormalStep = 1e-4;
 constexpr double kDepthStep_um = 1e-4;
-constexpr std::int32_t kMissing = std::numeric_limits<std::int32_t>::min();
-
-/// Packs numbers as multiples of a step: differences of neighbours, their bytes sorted by significance, which
-/// zlib then packs well. NaN becomes kMissing.
-template <class Number>
-std::string pack(const std::vector<Number>& values, double step) {
-  const std::size_t n = values.size();
-  std::string bytes(4 * n, '\0');
-  std::uint32_t previous = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double multiple = static_cast<double>(values[k]) / step;
-    const std::int32_t whole =
-        std::isfinite(multiple) ? static_cast<std::int32_t>(std::lround(multiple)) : kMissing;
-    const std::uint32_t difference = static_cast<std::uint32_t>(whole) - previous;
-    previous = static_cast<std::uint32_t>(whole);
-    for (std::size_t b = 0; b < 4; ++b) bytes[b * n + k] = static_cast<char>((difference >> (8 * b)) & 0xffu);
-  }
-  return bytes;
-}
 
 /// The surface's arrays and, for the page's script, the steps they are multiples of.
 std::string surface_blocks(const WornSurface& surface) {
   const SurfaceView& view = surface.view;
   std::string out;
-  out +=
-      data_block("x", pack(view.x_mm, kPositionStep_mm)) + data_block("y", pack(view.y_mm, kPositionStep_mm));
-  out += data_block("z", pack(view.z_mm, kPositionStep_mm));
-  out += data_block("nx", pack(view.nx, kNormalStep)) + data_block("ny", pack(view.ny, kNormalStep));
-  out += data_block("nz", pack(view.nz, kNormalStep));
-  out += data_block("depth", pack(view.depth_um, kDepthStep_um));
-  out += data_block("i", pack(view.i, 1.0)) + data_block("j", pack(view.j, 1.0)) +
-         data_block("k", pack(view.k, 1.0));
-  return out + data_block("map", pack(surface.map.depth_um, kDepthStep_um));
+  out += data_block("x", pack_numbers(view.x_mm, kPositionStep_mm)) +
+         data_block("y", pack_numbers(view.y_mm, kPositionStep_mm));
+  out += data_block("z", pack_numbers(view.z_mm, kPositionStep_mm));
+  out += data_block("nx", pack_numbers(view.nx, kNormalStep)) +
+         data_block("ny", pack_numbers(view.ny, kNormalStep));
+  out += data_block("nz", pack_numbers(view.nz, kNormalStep));
+  out += data_block("depth", pack_numbers(view.depth_um, kDepthStep_um));
+  out += data_block("i", pack_numbers(view.i, 1.0)) + data_block("j", pack_numbers(view.j, 1.0)) +
+         data_block("k", pack_numbers(view.k, 1.0));
+  return out + data_block("map", pack_numbers(surface.map.depth_um, kDepthStep_um));
 }
 
 std::string surface_json(const RunFolder& run) {
@@ -84,26 +67,27 @@ std::string band_json(const std::optional<Band>& band, double scale) {
 }
 
 /// What the script has to know beside the tables.
-std::string facts_json(const RunFolder& run, bool contours_thinned, bool profiles_thinned,
-                       bool force_thinned) {
+std::string facts_json(const RunFolder& run, const std::string& wear_map, bool contours_thinned,
+                       bool profiles_thinned, bool force_thinned) {
   const Measurement& lab = run.manifest.measurement;
   const std::string volume = lab.wear_volume_mm3
                                  ? fmt::format("[{},{}]", json_number(lab.wear_volume_mm3->mean),
                                                json_number(lab.wear_volume_mm3->sd))
                                  : "null";
   return fmt::format(
-      R"({{"counted":{},"measured":{{"volume_mm3":{},"depth_um":{},"width_mm":{}}},"surface":{},"surface_note":{},)"
+      R"({{"counted":{},"measured":{{"volume_mm3":{},"depth_um":{},"width_mm":{}}},"surface":{},"surface_note":{},"wear_map":{},)"
       R"("thinned":{{"contours":{},"profiles":{},"force":{}}}}})",
       json_string(run.manifest.counted), volume, band_json(lab.depth_mm, 1e3), band_json(lab.width_mm, 1.0),
-      surface_json(run), json_string(run.surface_note), contours_thinned, profiles_thinned, force_thinned);
+      surface_json(run), json_string(run.surface_note), wear_map, contours_thinned, profiles_thinned,
+      force_thinned);
 }
 
-std::string data_blocks(const RunFolder& run) {
+std::string data_blocks(const RunFolder& run, const std::string& wear_map) {
   const Table contours = thin_revolutions(run.contours, kMaxContourRows);
   const Table profiles = thin_revolutions(run.profiles, kMaxProfileRows);
   const Table force = thin_rows(run.force, kMaxForceRows);
   std::string out =
-      data_block("facts", facts_json(run, contours.rows() < run.contours.rows(),
+      data_block("facts", facts_json(run, wear_map, contours.rows() < run.contours.rows(),
                                      profiles.rows() < run.profiles.rows(), force.rows() < run.force.rows()));
   out += data_block("revolutions", to_csv(run.revolutions)) + data_block("contours", to_csv(contours));
   out += data_block("profiles", to_csv(profiles)) + data_block("force", to_csv(force));
@@ -131,6 +115,7 @@ double track_radius_mm(const RunFolder& run) {
 /// The sections that are made as those of other pages are.
 std::vector<PageSection> numbered_sections(const RunFolder& run) {
   std::vector<PageSection> sections;
+  if (std::optional<PageSection> map = wear_map_section(run)) sections.push_back(std::move(*map));
   if (std::optional<PageSection> particles = particles_section(run))
     sections.push_back(std::move(*particles));
   if (std::optional<PageSection> walls = walls_section(run)) sections.push_back(std::move(*walls));
@@ -154,19 +139,22 @@ constexpr int kFigures = 3, kGrooveFigures = 7;  ///< of run.html, of groove.htm
 
 std::string page_of(const RunFolder& run, const std::vector<PageSection>& sections) {
   const bool groove = run.has_groove();
-  const SectionParts numbers = section_parts(sections, kFigures + (groove ? kGrooveFigures : 0), 0);
+  int figures = kFigures + (groove ? kGrooveFigures : 0);
+  const WearMapFigure map = wear_map_figure(run, figures + 1);
+  if (!map.html.empty()) ++figures;
+  const SectionParts numbers = section_parts(sections, figures, 0);
   const std::string script = std::string(run_script()) + std::string(figures_script());
   return shell({.kicker = "Abradem wear report",
                 .title = page_title(run),
                 .lead = verdict(run),
                 .body = fill(run_body(), {{"cards", verdict_cards(run)},
-                                          {"groove", std::string(groove ? groove_figures() : "")},
+                                          {"groove", std::string(groove ? groove_figures() : "") + map.html},
                                           {"numbered", numbers.html},
                                           {"ledger", ledger_table(run)},
                                           {"limits", limits_and_warnings(run)},
                                           {"inputs", inputs(run)},
                                           {"record", record_table(run)}}),
-                .data = data_blocks(run) + numbers.data,
+                .data = data_blocks(run, map.facts) + map.data + numbers.data,
                 .script = script});
 }
 

@@ -50,6 +50,21 @@ constexpr std::array kImpacts = {
 constexpr std::array kErosion = {"wall"sv,          "abrader"sv,           "angle_deg"sv,
                                  "speed_m_per_s"sv, "finnie_mm3_per_kg"sv, "oka_mm3_per_kg"sv};
 
+constexpr std::array kWear = {"element"sv,
+                              "x_mm"sv,
+                              "y_mm"sv,
+                              "z_mm"sv,
+                              "area_mm2"sv,
+                              "wear_volume_mm3"sv,
+                              "wear_depth_um"sv,
+                              "wall"sv,
+                              "shear_work_J"sv,
+                              "normal_work_J"sv,
+                              "sliding_mm"sv,
+                              "impacts"sv,
+                              "impact_energy_J"sv,
+                              "peak_pressure_MPa"sv};
+
 /// A table that only some runs write.
 std::optional<Table> read_if_there(const std::filesystem::path& file,
                                    std::span<const std::string_view> required) {
@@ -115,6 +130,18 @@ void read_surface(RunFolder& run) {
   }
 }
 
+/// The last frames of the walls; their part in the series is their number.
+void read_wear_map(RunFolder& run) {
+  const std::filesystem::path series = run.folder / "series.pvd";
+  std::error_code code;
+  if (!std::filesystem::exists(series, code)) return;
+  std::vector<WallFrame> frames;
+  for (const WallFrames& wall : frames_by_wall(io::read_pvd(series)))
+    for (std::size_t w = 0; w < run.manifest.walls.size(); ++w)
+      if (wall.part == std::to_string(w)) frames.push_back({run.manifest.walls[w], wall.last});
+  run.wear_map = wear_map_view(frames);
+}
+
 }  // namespace
 
 RunFolder read_run_folder(const std::filesystem::path& folder) {
@@ -139,7 +166,10 @@ RunFolder read_run_folder(const std::filesystem::path& folder) {
   run.laws = read_if_there(tables / "wear_by_law.csv", kLaws);
   run.impacts = read_if_there(tables / "impacts.csv", kImpacts);
   run.erosion = read_if_there(tables / "erosion.csv", kErosion);
+  if (std::filesystem::exists(tables / "wear_integrals.csv", code))
+    run.wear = read_table(tables / "wear.csv", kWear);
   read_surface(run);
+  if (run.wear) read_wear_map(run);
   return run;
 }
 

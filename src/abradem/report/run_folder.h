@@ -8,6 +8,7 @@
 #include "abradem/report/manifest.h"
 #include "abradem/report/surface_view.h"
 #include "abradem/report/table.h"
+#include "abradem/report/wear_map_view.h"
 
 namespace abradem::report {
 
@@ -21,6 +22,8 @@ struct RunFolder {
   std::optional<Table> particles;                 ///< of runs with particles in numbers
   std::optional<Table> walls;                     ///< loads on the walls; of all but old runs
   std::optional<Table> laws, impacts, erosion;    ///< of runs that wear by other laws than Archard's
+  std::optional<Table> wear;                      ///< of runs that kept maps
+  std::optional<WearMapView> wear_map;            ///< … and frames of them
   std::optional<WornSurface> surface;
   std::string surface_note;  ///< why there is no surface, when there is none
 

@@ -152,8 +152,9 @@ struct WallSetup {
   Sides sides = Sides::front;  ///< both: with contact `resolved` and no deformation
   DeformationRule deformation = DeformationRule::none;
   Footprint footprint = Footprint::hertz;
-  int deform_every = 1;         ///< steps between updates of the shape; 1 in the rule `paper`
-  std::optional<double> until;  ///< taken away at this time, as a gate is [s]; default: it stays
+  int deform_every = 1;             ///< steps between updates of the shape; 1 in the rule `paper`
+  std::optional<double> until;      ///< taken away at this time, as a gate is [s]; default: it stays
+  std::optional<double> thickness;  ///< of the liner, which may wear off [m]; only for the report
   bool operator==(const WallSetup&) const = default;
 
   [[nodiscard]] std::size_t motions() const noexcept { return 1 + carried_by.size(); }
@@ -161,6 +162,13 @@ struct WallSetup {
   [[nodiscard]] const MotionSetup& motion_at(std::size_t k) const noexcept {
     return k == 0 ? motion : carried_by[k - 1];
   }
+};
+
+/// Part of a wall whose spectra are kept apart: the elements whose unworn centres lie in a box.
+struct RegionSetup {
+  std::string name, wall;
+  Vec3 low, high;  ///< in the wall's frame [m]
+  bool operator==(const RegionSetup&) const = default;
 };
 
 enum class Guide { none, vertical };
@@ -274,9 +282,13 @@ struct RunSetup {
 /// Outputs whose surfaces are written as frames: every one, the new and the last worn one, or none.
 enum class Frames { all, ends, none };
 
+/// Wear maps: of walls that particles in numbers wear (automatic), of all that wear, or of none.
+enum class Maps { automatic, on, off };
+
 struct OutputSetup {
   Duration every{1.0, true};  ///< frames and table rows
   Frames frames = Frames::all;
+  Maps maps = Maps::automatic;
   int contours = 360;               ///< sections of the worn surface per output
   double checkpoint_every = 600.0;  ///< wall-clock time between checkpoints [s]; 0: none on the way
   bool operator==(const OutputSetup&) const = default;
@@ -330,6 +342,7 @@ struct Setup {
   std::vector<WearSetup> wear;
   std::optional<PloughingSetup> ploughing;
   std::vector<WallSetup> walls;
+  std::vector<RegionSetup> regions;
   std::vector<ParticleSetup> particles;
   std::vector<InsertionSetup> insertions;
   std::optional<DomainSetup> domain;

@@ -10,6 +10,7 @@
 #include "abradem/core/error.h"
 #include "abradem/core/hash.h"
 #include "abradem/core/parallel.h"
+#include "abradem/simulation/pair_laws.h"
 
 namespace abradem::simulation {
 
@@ -80,6 +81,7 @@ Simulation::Simulation(Setup setup, const MeshSource& source) : setup_(std::move
   find_pair_properties();
   check_ploughing();
   choose_accounts();
+  choose_maps();
   add_particles();
   add_tips();
   sphere_walls_.resize(particles_.size() * walls_.size());
@@ -144,39 +146,9 @@ void Simulation::find_pair_properties() {
     if (&w != &setup_.wear.front() && w.acceleration.factor != acceleration_)
       throw InputError("the accelerations of the wear pairs differ; they shorten one and the same run");
     acceleration_ = w.acceleration.factor;
-    laws_[a * n + b] = laws_of(w);
+    laws_[a * n + b] = laws_of(setup_, w, acceleration_);
     wear_[a * n + b] = laws_[a * n + b].archard;
   }
-}
-
-/// The laws of a pair with the coefficients of the modelled revolutions.
-wear::Laws Simulation::laws_of(const WearSetup& w) const {
-  const auto has = [&](WearLaw law) { return std::ranges::find(w.laws, law) != w.laws.end(); };
-  wear::Laws laws;
-  if (has(WearLaw::archard)) laws.archard = w.wear_coefficient * acceleration_;
-  if (has(WearLaw::shear_work)) laws.shear_work = w.shear_work_coefficient * acceleration_;
-  if (has(WearLaw::finnie))
-    laws.finnie = wear::FinnieLaw{w.finnie_coefficient * acceleration_, w.finnie_force_ratio};
-  if (has(WearLaw::impact_energy)) {
-    laws.normal_energy = w.normal_energy_coefficient * acceleration_;
-    laws.shear_energy = w.shear_energy_coefficient * acceleration_;
-  }
-  if (has(WearLaw::oka)) {
-    const auto worn = std::ranges::find(setup_.materials, w.worn, &MaterialSetup::name);
-    if (!worn->hardness)
-      throw InputError(
-          fmt::format("wear \"{}/{}\": Oka's law needs the hardness of '{}'", w.abrader, w.worn, w.worn));
-    wear::OkaLaw oka = wear::OkaLaw::of_hardness(*worn->hardness);
-    oka.reference_erosion = w.oka.reference_erosion.value_or(oka.reference_erosion) * acceleration_;
-    oka.reference_speed = w.oka.reference_speed;
-    oka.reference_diameter = w.oka.reference_diameter;
-    oka.speed_exponent = w.oka.speed_exponent.value_or(oka.speed_exponent);
-    oka.diameter_exponent = w.oka.diameter_exponent;
-    oka.n1 = w.oka.n1.value_or(oka.n1);
-    oka.n2 = w.oka.n2.value_or(oka.n2);
-    laws.oka = oka;
-  }
-  return laws;
 }
 
 /// Which walls wear by more than Archard's law, and what such laws cannot be combined with.

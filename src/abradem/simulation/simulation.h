@@ -137,6 +137,15 @@ class Simulation {
   [[nodiscard]] const wear::ImpactSpectrum& impacts_on(std::size_t wall) const noexcept {
     return account_[wall].impacts;
   }
+  /// What a wall has suffered, element by element; nothing where no map is kept. In modelled revolutions:
+  /// the test's are acceleration() times as much.
+  [[nodiscard]] const wear::WearMap* map_of(std::size_t wall) const noexcept {
+    return maps_[wall] ? &*maps_[wall] : nullptr;
+  }
+  /// Volume that an element has lost to each mechanism [m^3]; where a map is kept.
+  [[nodiscard]] wear::MechanismVolumes mapped_volumes(std::size_t wall, std::size_t element) const;
+  /// Regions of a wall, in the order of its map's: the named ones, then the rest of it.
+  [[nodiscard]] std::vector<std::string> regions_of(std::size_t wall) const;
   /// How material `abrader` wears `worn`, accelerated as the run is.
   [[nodiscard]] const wear::Laws& wear_laws(int abrader, int worn) const {
     return laws_[static_cast<std::size_t>(abrader) * materials_.size() + static_cast<std::size_t>(worn)];
@@ -205,8 +214,9 @@ class Simulation {
   void choose_time_step();
   [[nodiscard]] double choose_increment() const;
   void find_pair_properties();
-  [[nodiscard]] wear::Laws laws_of(const WearSetup& wear) const;
   void choose_accounts();
+  void choose_maps();
+  [[nodiscard]] MapLayer map_layer(std::size_t wall, int abrader) noexcept;
   [[nodiscard]] const contact::PairProperties& pair(int a, int b) const {
     return pairs_[static_cast<std::size_t>(a) * setup_.materials.size() + static_cast<std::size_t>(b)];
   }
@@ -252,6 +262,7 @@ class Simulation {
   std::vector<double> displaced_;                      // per wall, ploughed aside [m^3]
   std::vector<char> by_laws_;                          // per wall: it wears by others than Archard's
   std::vector<WearAccount> account_;                   // per wall, where it does
+  std::vector<std::optional<wear::WearMap>> maps_;     // per wall
   std::vector<std::optional<wear::WearingTip>> tips_;  // per particle
   std::vector<Vec3> tip_along_;                        // per particle: axis s of its tip's map
   std::vector<double> tip_law_;                        // per particle [m^3]

@@ -259,18 +259,13 @@ void SphereWall::watch_impact(Memory& memory, const Touch& touch, const Vec3& v)
 /// The damper's power is (D v_n)^2 / D, and D v_n is what it takes off the elastic force.
 wear::WorkSample SphereWall::work_of(const Touch& touch, double slip, double mass,
                                      const contact::PairProperties& pair, double dt) noexcept {
-  const double damper = contact::damping_coefficient(pair, contact::normal_stiffness(pair, touch.a), mass);
+  const bool known = pair.options.damped_hertz();
+  const double damper =
+      known ? contact::damping_coefficient(pair, contact::normal_stiffness(pair, touch.a), mass) : 0.0;
   const double by_damper = (touch.elastic_force - touch.force.F_n) / touch.weight;
   return {.contact = {std::max(touch.force.F_n, 0.0), slip},
           .shear_work = norm(touch.force.F_t) * slip,
           .normal_loss = damper > 0.0 ? touch.weight * by_damper * by_damper / damper * dt : 0.0};
-}
-
-void SphereWall::add_strike(const wear::Laws& laws, const Memory& memory, double R, double mass,
-                            wear::MechanismVolumes& volumes, wear::ImpactSpectrum& impacts) noexcept {
-  const wear::Impact impact{memory.speed, memory.angle, mass, 2.0 * R};
-  wear::add_impact(laws, impact, volumes);
-  impacts.add(impact, volumes);
 }
 
 /// Does a contact that faces this way last from the step before?
@@ -375,8 +370,8 @@ ForceAndTorque SphereWall::load(const geometry::Pose& pose, double R) const noex
 /// Where the Hertz footprint lies wholly inside one triangle, its pressure is symmetric about the nearest
 /// point, so that its moments with the (linear) shape functions are these functions there: no integral is
 /// needed.
-bool SphereWall::deposit_inside(Wall& wall, const Touch& touch, double dV, double R,
-                                const contact::PairProperties& pair) {
+bool SphereWall::lands_inside(const Touch& touch, double R, const contact::PairProperties& pair,
+                              Landing& landing) const {
   const auto t = static_cast<std::size_t>(touch.nearest);
   const double a =
       contact::contact_radius(R, contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight));
@@ -391,21 +386,18 @@ bool SphereWall::deposit_inside(Wall& wall, const Touch& touch, double dV, doubl
   const double size = std::sqrt(area2);
   if (b0 * size < a * norm(p2 - p1) || b1 * size < a * norm(p0 - p2) || b2 * size < a * norm(p1 - p0))
     return false;
-  wall.surface().deposit(candidates_.triangle[t], dV, dV * b0, dV * b1, dV * b2);
+  landing = {touch.nearest, b0, b1, b2, nullptr};
   return true;
 }
 
-void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R,
-                             const contact::PairProperties& pair) {
-  if (wall.is_plane()) return;
-  wear::WearingSurface& surface = wall.surface();
+/// Where what a contact does to the wall falls; on a plane nowhere.
+SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, double R,
+                                     const contact::PairProperties& pair) {
+  if (wall.is_plane()) return {};
   const bool paper = wall.setup().deformation == DeformationRule::paper;
   if (wall.setup().contact == ContactRule::per_triangle) {
+    if (paper) return {touch.part, 0.0, 0.0, 0.0, nullptr};
     const auto t = static_cast<std::size_t>(touch.part);
-    if (paper) {
-      surface.deposit_element(touch.key, dV);
-      return;
-    }
     const Vec3 a = candidates_.node_position(at(candidates_.v0[t]));
     const Vec3 e1 = candidates_.node_position(at(candidates_.v1[t])) - a;
     const Vec3 e2 = candidates_.node_position(at(candidates_.v2[t])) - a;
@@ -413,21 +405,37 @@ void SphereWall::deposit_one(Wall& wall, const Touch& touch, double dV, double R
     const double d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), det = d11 * d22 - d12 * d12;
     const double b1 = std::clamp((d22 * dot(p, e1) - d12 * dot(p, e2)) / det, 0.0, 1.0);
     const double b2 = std::clamp((d11 * dot(p, e2) - d12 * dot(p, e1)) / det, 0.0, 1.0 - b1);
-    surface.deposit(touch.key, dV, dV * (1.0 - b1 - b2), dV * b1, dV * b2);
-    return;
+    return {touch.part, 1.0 - b1 - b2, b1, b2, nullptr};
   }
 
+  Landing landing;
   if (touch.of_point && !paper && !tip_.worn() && wall.setup().footprint == Footprint::hertz &&
-      deposit_inside(wall, touch, dV, R, pair))
-    return;
+      lands_inside(touch, R, pair, landing))
+    return landing;
   const std::span<const char> mask = mask_of(wall, touch.part, touch.of_point);
   const wear::OverlapField field = overlap_field(R, touch.deepest, touch.of_point);
-  const wear::FootprintShares& shares =
+  landing.shares =
       wall.setup().footprint == Footprint::hertz
-          ? footprint_.hertz(candidates_, field,
-                             contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight), paper, mask)
-          : footprint_.overlap(candidates_, field, paper, mask);
-  if (!(shares.total > 0.0)) return;
+          ? &footprint_.hertz(candidates_, field,
+                              contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight), paper, mask)
+          : &footprint_.overlap(candidates_, field, paper, mask);
+  if (!(landing.shares->total > 0.0)) landing.shares = nullptr;
+  return landing;
+}
+
+void SphereWall::deposit_landed(Wall& wall, const Landing& landing, double dV) {
+  if (landing.nowhere()) return;
+  wear::WearingSurface& surface = wall.surface();
+  const bool paper = wall.setup().deformation == DeformationRule::paper;
+  if (landing.triangle >= 0) {
+    const geometry::Index t = candidates_.triangle[at(landing.triangle)];
+    if (paper)
+      surface.deposit_element(t, dV);
+    else
+      surface.deposit(t, dV, dV * landing.at0, dV * landing.at1, dV * landing.at2);
+    return;
+  }
+  const wear::FootprintShares& shares = *landing.shares;
   const double scale = dV / shares.total;
   if (paper) {
     for (std::size_t t = 0; t < shares.count; ++t)
@@ -620,6 +628,8 @@ double SphereWall::pending_volume() const noexcept {
 /// Adds what the centroids of the elements in contact have moved since they were last noted.
 void SphereWall::add_centroid_motion(const Wall& wall) {
   if (wall.setup().deformation != DeformationRule::conserving) return;
+  if (noted_revision_ == wall.view().revision && !noted_.empty()) return;  // nothing has moved since
+  noted_revision_ = wall.view().revision;
   const geometry::TriangleMesh& mesh = wall.surface().mesh();
   const bool patch = by_patches(wall);
   const std::span<const double> excess = patches_.node_excess();
@@ -675,6 +685,7 @@ geometry::Index SphereWall::nearest_triangle(const Vec3& c) const noexcept {
 }
 
 void SphereWall::note_nodes() {
+  noted_revision_ = kNeverNoted;
   noted_.resize(candidates_.node_count());
   motion_.assign(candidates_.x.size(), {});
   for (std::size_t i = 0; i < noted_.size(); ++i) noted_[i] = candidates_.node_position(i);

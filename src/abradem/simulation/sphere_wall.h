@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "abradem/contact/candidate_kernels.h"
@@ -12,6 +13,7 @@
 #include "abradem/wear/footprint.h"
 #include "abradem/wear/laws.h"
 #include "abradem/wear/ridges.h"
+#include "abradem/wear/wear_map.h"
 #include "abradem/wear/wearing_tip.h"
 
 namespace abradem::simulation {
@@ -31,6 +33,12 @@ struct WearAccount {
   static void visit(Self& self, Archive& archive) {
     archive("law", self.law)("impacts", self.impacts);
   }
+};
+
+/// Where a contact's wear is mapped; nowhere, where there is no layer.
+struct MapLayer {
+  wear::WearMap* map = nullptr;
+  wear::WearMap::Layer* layer = nullptr;
 };
 
 struct ForceAndTorque {
@@ -103,29 +111,44 @@ class SphereWall {
     double volume = 0.0;
     for (const Touch& touch : touches_) {
       const double dV = wear::archard_volume(alpha_s, {std::max(touch.force.F_n, 0.0), slip_of(touch)});
-      if (dV > 0.0) deposit_one(wall, touch, dV, R, pair);
+      if (dV > 0.0) deposit_landed(wall, land(wall, touch, R, pair), dV);
       volume += dV;
     }
     return volume;
   }
 
-  /// The same by several laws at once. @param account is added to
+  /// The same by several laws at once, and on the wall's map. @param account is added to
   /// @return the volume of all mechanisms [m^3]
   template <typename SlipOf>
   double deposit_by_laws(Wall& wall, const wear::Laws& laws, const SphereState& sphere,
                          const contact::PairProperties& pair, double dt, WearAccount& account,
-                         SlipOf&& slip_of) {
+                         SlipOf&& slip_of, const MapLayer& map = {}) {
     const double R = sphere.radius, mass = sphere.mass;
     double volume = 0.0;
     for (const Touch& touch : touches_) {
-      wear::MechanismVolumes volumes{};
-      wear::add_work(laws, work_of(touch, slip_of(touch), mass, pair, dt), volumes);
-      if (touch.memory >= 0 && memory_[static_cast<std::size_t>(touch.memory)].striking)
-        add_strike(laws, memory_[static_cast<std::size_t>(touch.memory)], R, mass, volumes, account.impacts);
-      const double dV = wear::total(volumes);
-      if (dV > 0.0) deposit_one(wall, touch, dV, R, pair);
+      wear::MapSample sample;
+      sample.work = work_of(touch, slip_of(touch), mass, pair, dt);
+      wear::add_work(laws, sample.work, sample.volumes);
+      if (const Memory* memory = memory_of(touch); memory != nullptr && memory->striking) {
+        sample.strikes = true;
+        sample.impact = {memory->speed, memory->angle, mass, 2.0 * R};
+        wear::add_impact(laws, sample.impact, sample.volumes);
+        if (laws.strikes()) account.impacts.add(sample.impact, sample.volumes);
+      }
+      const double dV = wear::total(sample.volumes);
+      if (dV > 0.0 || map.layer != nullptr) {
+        const Landing landing = land(wall, touch, R, pair);
+        if (dV > 0.0) deposit_landed(wall, landing, dV);
+        if (map.layer != nullptr) {
+          sample.dt = dt;
+          sample.sliding_speed = touch.force.v_t;
+          sample.weight = touch.weight;
+          sample.hertz_area = hertz_area(touch, R, pair);
+          map_landed(*map.map, *map.layer, landing, sample);
+        }
+      }
       volume += dV;
-      for (std::size_t m = 0; m < volumes.size(); ++m) account.law[m] += volumes[m];
+      for (std::size_t m = 0; m < sample.volumes.size(); ++m) account.law[m] += sample.volumes[m];
     }
     return volume;
   }
@@ -249,9 +272,28 @@ class SphereWall {
   [[nodiscard]] wear::OverlapField overlap_field(double R, double deepest, bool of_point) const;
   void shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair, bool due);
   void press(wear::WearingTip& tip, const Wall& wall, const Spot& spot, double d_e);
-  void deposit_one(Wall& wall, const Touch& touch, double dV, double R, const contact::PairProperties& pair);
-  bool deposit_inside(Wall& wall, const Touch& touch, double dV, double R,
-                      const contact::PairProperties& pair);
+  /// How a contact's wear falls: all of it in one candidate triangle, with these parts at its corners; or by
+  /// the shares of a footprint, valid until the next; or nowhere.
+  struct Landing {
+    std::int32_t triangle = -1;
+    double at0 = 0.0, at1 = 0.0, at2 = 0.0;
+    const wear::FootprintShares* shares = nullptr;
+    [[nodiscard]] bool nowhere() const noexcept { return triangle < 0 && shares == nullptr; }
+  };
+  [[nodiscard]] bool lands_inside(const Touch& touch, double R, const contact::PairProperties& pair,
+                                  Landing& landing) const;
+  [[nodiscard]] Landing land(const Wall& wall, const Touch& touch, double R,
+                             const contact::PairProperties& pair);
+  void deposit_landed(Wall& wall, const Landing& landing, double dV);
+  void map_landed(wear::WearMap& map, wear::WearMap::Layer& layer, const Landing& landing,
+                  const wear::MapSample& sample);
+  [[nodiscard]] static double hertz_area(const Touch& touch, double R,
+                                         const contact::PairProperties& pair) noexcept {
+    return std::numbers::pi * R * contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight);
+  }
+  [[nodiscard]] const Memory* memory_of(const Touch& touch) const noexcept {
+    return touch.memory >= 0 ? &memory_[static_cast<std::size_t>(touch.memory)] : nullptr;
+  }
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
   void touch_patches(double R, std::span<const contact::Patch> patches);
   void touch_points(const Wall& wall, double R, const contact::PairProperties& pair,
@@ -264,8 +306,6 @@ class SphereWall {
   void watch_impact(Memory& memory, const Touch& touch, const Vec3& v) noexcept;
   [[nodiscard]] static wear::WorkSample work_of(const Touch& touch, double slip, double mass,
                                                 const contact::PairProperties& pair, double dt) noexcept;
-  static void add_strike(const wear::Laws& laws, const Memory& memory, double R, double mass,
-                         wear::MechanismVolumes& volumes, wear::ImpactSpectrum& impacts) noexcept;
   [[nodiscard]] bool sticking(const Vec3& n) const noexcept;
   bool compute_with_options(Touch& touch, const Vec3& v, const SphereState& sphere, const Vec3& spin,
                             const contact::PairProperties& pair, double dt,
@@ -282,6 +322,7 @@ class SphereWall {
   std::vector<Spot> spots_;
   std::vector<Memory> memory_, kept_;
   std::vector<char> mask_;
+  std::vector<double> density_;       // scratch: of a footprint's share at each candidate node [1/m^2]
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
   bool stale_ = true;                 // the candidates were gathered anew in this step
   double reach_ = 0.0;
@@ -295,8 +336,10 @@ class SphereWall {
   double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
   double tip_area_ = 0.0;                       // of the tip under pressure, of late [m^2]
   wear::RidgeBuilder ridges_;
-  double unpiled_ = 0.0, slid_ = 0.0;                 // since the last pile [m^3, m]
-  std::vector<Pressing> ploughing_;                   // the last contacts
+  double unpiled_ = 0.0, slid_ = 0.0;  // since the last pile [m^3, m]
+  std::vector<Pressing> ploughing_;    // the last contacts
+  static constexpr std::uint64_t kNeverNoted = ~std::uint64_t{0};
+  std::uint64_t noted_revision_ = kNeverNoted;        // of the surface, when its nodes were last noted
   std::vector<Vec3> noted_;                           // of each candidate node: where it was when last noted
   std::vector<contact::kernels::NodeMotion> motion_;  // since then, padded
   std::vector<double> terms_;                         // scratch

@@ -17,6 +17,8 @@ void Simulation::visit(Self& self, Archive& archive) {
   archive.fixed("spin", self.particles_.spin);
   archive.fixed("law", self.law_).fixed("paper", self.paper_).fixed("displaced", self.displaced_);
   archive.fixed("account", self.account_);
+  for (auto& map : self.maps_)
+    if (map) archive("map", *map);
   for (auto& wall : self.walls_)
     if (!wall.is_plane()) archive("surface", wall.surface());
   for (auto& tip : self.tips_)

@@ -21,12 +21,13 @@ void Simulation::accumulate_wear() {
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       Wall& wall = walls_[w];
       const double alpha_s = groove_coefficient(particles_.material[p], wall.material());
-      if (by_laws_[w] != 0) {
+      const MapLayer map = map_layer(w, particles_.material[p]);
+      if (by_laws_[w] != 0 || map.layer != nullptr) {
         law_[w] += sphere_walls_[p * walls_.size() + w].deposit_by_laws(
             wall, wear_laws(particles_.material[p], wall.material()),
             {{}, {}, {}, particles_.radius[p], particles_.mass[p]},
             pair(particles_.material[p], wall.material()), dt_, account_[w],
-            [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); });
+            [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); }, map);
       } else if (alpha_s != 0.0) {
         const double volume = sphere_walls_[p * walls_.size() + w].deposit(
             wall, alpha_s, particles_.radius[p], pair(particles_.material[p], wall.material()),
@@ -48,15 +49,17 @@ void Simulation::accumulate_wear() {
     const contact::SphereRow& s = bulk_->spheres().row[static_cast<std::size_t>(m.sphere)];
     const auto w = static_cast<std::size_t>(m.wall);
     const auto material = static_cast<int>(s.material);
-    if (by_laws_[w] != 0) {
+    if (m.contact->touches().empty() && m.contact->unpiled_volume() == 0.0) continue;
+    const MapLayer map = map_layer(w, material);
+    if (by_laws_[w] != 0 || map.layer != nullptr) {
       law_[w] += m.contact->deposit_by_laws(
           walls_[w], wear_laws(material, walls_[w].material()), {{}, {}, {}, s.radius, 1.0 / s.inverse_mass},
           pair(material, walls_[w].material()), dt_, account_[w],
-          [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
+          [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); }, map);
       continue;
     }
     const double alpha_s = groove_coefficient(material, walls_[w].material());
-    if (alpha_s == 0.0 || (m.contact->touches().empty() && m.contact->unpiled_volume() == 0.0)) continue;
+    if (alpha_s == 0.0) continue;
     const double volume =
         m.contact->deposit(walls_[w], alpha_s, s.radius, pair(material, walls_[w].material()),
                            [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });

@@ -54,6 +54,7 @@ struct OkaLaw {
   double diameter_exponent = 0.19;     ///< k3 [-]
   double hardness = 0.0;               ///< Vickers hardness of the wall [GPa]
   double n1 = 0.0, n2 = 0.0;           ///< exponents of the angle function [-]
+  bool operator==(const OkaLaw&) const = default;
 
   /// The constants of SiO2 grains on a metal of this hardness [Pa] (Oka & Yoshida 2005, Table 3).
   [[nodiscard]] static OkaLaw of_hardness(double hardness) noexcept;

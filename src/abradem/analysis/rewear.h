@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "abradem/wear/wear_map.h"
+
+/// Wear by other laws or coefficients, from what a run has recorded.              docs/reference/rewear.md
+namespace abradem::analysis {
+
+/// What one material did to one element, in the test.
+struct RecordedElement {
+  int wall = 0, abrader = 0, region = 0, element = 0;
+  double area = 0.0;  ///< [m^2]
+  wear::WearMap::Element sums;
+  wear::Impact impact;  ///< mean of those that fell here; its mass is that of all together; none: no mass
+};
+
+/// A class of the impacts of one material on one region of a wall, as its mean.
+struct RecordedImpacts {
+  int wall = 0, abrader = 0, region = 0;
+  wear::Impact mean;  ///< its mass is that of all together
+};
+
+struct Recorded {
+  std::vector<RecordedElement> elements;  ///< by wall, then abrader, then element
+  std::vector<RecordedImpacts> impacts;
+};
+
+/// How a material wore a wall in the run, and how it is to wear it.
+struct LawChange {
+  int wall = 0, abrader = 0;
+  wear::Laws before, after;
+};
+
+struct RewornElement {
+  int wall = 0, element = 0, region = 0;
+  double area = 0.0;
+  wear::MechanismVolumes volumes{};  ///< of all abraders [m^3]
+};
+
+struct RewornRegion {
+  int wall = 0, region = 0;
+  wear::MechanismVolumes volumes{};
+  bool exact = true;  ///< nothing in it comes from classes of impacts
+};
+
+struct Reworn {
+  std::vector<RewornElement> elements;  ///< by wall, then element
+  std::vector<RewornRegion> regions;    ///< those that were touched, by wall, then region
+};
+
+/// Laws by work are exact: their coefficients times the sums of each element. So are Finnie's and Oka's where
+/// the run had them and nothing but the coefficient is other. Else each class of impacts counts as its mean,
+/// and the region's volume is shared out among its elements as their mean impacts would wear them.
+[[nodiscard]] Reworn rewear(const Recorded& recorded, const std::vector<LawChange>& changes);
+
+}  // namespace abradem::analysis
