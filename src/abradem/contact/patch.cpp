@@ -34,10 +34,10 @@ std::span<const Patch> PatchEvaluator::evaluate(const MeshCandidates& candidates
   clusters_.clear();
   excess_.resize(candidates.x.size());
   largest_excess_ = kernels::node_excess(candidates, c, R, excess_);
-  by_nodes_ = false;
+  by_nodes_ = !tip.worn() && evaluate_nodes(candidates, c, R, pair);
   if (tip.worn())
     evaluate_worn(candidates, c, R, pair, tip);
-  else if (!(by_nodes_ = evaluate_nodes(candidates, c, R, pair)))
+  else if (!by_nodes_)
     evaluate_triangles(candidates, c, R, pair);
   return patches_;
 }
