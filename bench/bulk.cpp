@@ -4,6 +4,8 @@
 //   abradem_bulk make N POSITIONS.csv [steps]      settle N spheres of 6 mm in a box about as high as wide
 //   abradem_bulk time POSITIONS.csv [steps] [runs] go on from there, and time it
 //   abradem_bulk count POSITIONS.csv               contacts among the spheres and their elastic energy
+//   abradem_bulk drum TRIANGLES [steps] [runs] [warm]  20,000 spheres in a turning drum that wears and
+//   deforms
 //
 // POSITIONS.csv holds the box's side, then x, y, z of every sphere, in metres: other codes start from it too.
 #include <fmt/format.h>
@@ -15,6 +17,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <numbers>
 #include <string>
 
 #include "abradem/core/error.h"
@@ -154,6 +157,85 @@ int time(const std::string& path, long steps, long runs) {
   return 0;
 }
 
+constexpr double kDrumRadius = 0.15, kDrumLength = 0.152;
+
+/// A cylinder about the y axis, seen from inside; about so many triangles.
+geometry::TriangleMesh cylinder(std::size_t triangles) {
+  const double across = 2.0 * std::numbers::pi * kDrumRadius,
+               edge = std::sqrt(2.0 * across * kDrumLength / static_cast<double>(triangles));
+  const auto n = static_cast<std::int32_t>(std::round(across / edge)),
+             m = static_cast<std::int32_t>(std::round(kDrumLength / edge));
+  geometry::TriangleMesh mesh;
+  for (std::int32_t k = 0; k <= m; ++k)
+    for (std::int32_t i = 0; i < n; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / n;
+      mesh.vertices.push_back({kDrumRadius * std::cos(angle),
+                               (static_cast<double>(k) / m - 0.5) * kDrumLength,
+                               kDrumRadius * std::sin(angle)});
+    }
+  for (std::int32_t k = 0; k < m; ++k)
+    for (std::int32_t i = 0; i < n; ++i) {
+      const std::int32_t a = k * n + i, b = k * n + (i + 1) % n, c = a + n, d = b + n;
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({c, b, d});
+    }
+  return mesh;
+}
+
+int drum(std::size_t triangles, long steps, long runs, long warm) {
+  Setup setup = open_box(1.0);
+  setup.walls.resize(2);
+  setup.walls[0].material = setup.walls[1].material = "steel";
+  for (const std::size_t end : {0UL, 1UL}) {
+    setup.walls[end].mesh.position = {0.0, (end == 0 ? -0.5 : 0.5) * kDrumLength, 0.0};
+    setup.walls[end].mesh.normal = {0.0, end == 0 ? 1.0 : -1.0, 0.0};
+  }
+  WallSetup shell;
+  shell.name = "shell";
+  shell.material = "steel";
+  shell.mesh.shape = MeshShape::file;
+  shell.motion.kind = MotionKind::rotation;
+  shell.motion.axis = {0.0, 1.0, 0.0};
+  shell.motion.rate = std::numbers::pi;
+  shell.contact = ContactRule::resolved;
+  shell.deformation = DeformationRule::conserving;
+  shell.deform_every = 20;
+  setup.walls.push_back(shell);
+  setup.materials.push_back({"steel", 7850.0, 7.8e10, 0.3, {}});
+  setup.contacts.push_back({"glass", "steel", 0.5, 0.5, 0.0});
+  setup.wear.push_back({.abrader = "glass", .worn = "steel", .wear_coefficient = 1e-9});
+  std::vector<PlacedSphere> spheres = loose_lattice(90'000, 0.3);
+  std::erase_if(spheres, [](PlacedSphere& s) {
+    s.position = s.position - Vec3{0.15, 0.15, 0.15};
+    const double reach = kDrumRadius - 1.2 * kRadius;
+    return std::hypot(s.position.x, s.position.z) > reach ||
+           std::abs(s.position.y) > 0.5 * kDrumLength - 1.2 * kRadius;
+  });
+  if (spheres.size() > 20'000) spheres.resize(20'000);
+  setup.insertions[0].placed = spheres;
+  Simulation run(setup, [&](const MeshSetup&, std::uint64_t) { return cylinder(triangles); });
+  for (long k = 0; k < warm; ++k) run.step();
+  std::vector<double> wall;
+  const BulkState s = run.bulk_state();
+  for (long r = 0; r < runs; ++r) {
+    const auto start = std::chrono::steady_clock::now();
+    for (long k = 0; k < steps; ++k) run.step();
+    wall.push_back(static_cast<double>(s.present) * static_cast<double>(steps) /
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::ranges::sort(wall);
+  const Ledger ledger = run.ledger();
+  fmt::print(
+      "drum of {} triangles, {} spheres, {} threads, {} runs of {} steps after {}\n"
+      "particle-steps per second of wall time: median {:.3g}, best {:.3g}\n"
+      "{} contacts among spheres, {} with walls, fastest {:.3g} m/s, {} rebuilds, law {:.6g} mm^3, residual "
+      "{:.2g}, state {:016x}\n",
+      run.walls()[2].surface().mesh().triangles.size(), s.present, omp_get_max_threads(), runs, steps, warm,
+      wall[wall.size() / 2], wall.back(), s.pair_contacts, s.wall_contacts, s.fastest,
+      run.bulk()->list().rebuilds(), 1e9 * ledger.law, ledger.residual, run.state_hash());
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -163,8 +245,10 @@ int main(int argc, char** argv) {
     return make(static_cast<std::size_t>(number(2, 0)), argv[3], number(4, 24000));
   if (what == "time" && argc > 2) return time(argv[2], number(3, 200), number(4, 5));
   if (what == "count" && argc > 2) return count(argv[2]);
+  if (what == "drum" && argc > 2)
+    return drum(static_cast<std::size_t>(number(2, 0)), number(3, 200), number(4, 5), number(5, 10000));
   fmt::print(stderr,
              "usage: abradem_bulk make N POSITIONS.csv [steps] | time POSITIONS.csv [steps] [runs] | count "
-             "POSITIONS.csv\n");
+             "POSITIONS.csv | drum TRIANGLES [steps] [runs] [warm]\n");
   return 2;
 }

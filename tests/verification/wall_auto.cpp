@@ -88,37 +88,59 @@ Steps roll(const simulation::Setup& setup, const TriangleMesh& mesh) {
   return steps;
 }
 
+double farthest(const std::vector<double>& a, const std::vector<double>& b) {
+  double worst = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, std::abs(a[k] - b[k]));
+  return worst;
+}
+
+/// On the plane itself the rules are equal, and one is taken; a nanometre of noise makes both share.
 TEST(AutoWall, BallRollsFromCoarseToFineAsOnAPlane) {
-  const SphereOnMesh ball = rolling_ball(graded_plate(), ContactRule::automatic);
-  simulation::Setup on_plane = ball.setup();
-  on_plane.walls[0].mesh.shape = MeshShape::plane;
-  const Steps plane = roll(on_plane, ball.mesh), steps = roll(ball.setup(), ball.mesh);
-  ASSERT_EQ(plane.normal.size(), steps.normal.size());
-  // All three regimes were met.
-  EXPECT_GT(steps.points, 2000);
-  EXPECT_GT(steps.blended, 1000);
-  EXPECT_GT(steps.patches, 2000);
-  EXPECT_GT(steps.position.x, 0.018);
-  double normal = 0.0, tangential = 0.0, jump = 0.0;
-  const double weight = norm(ball.load);
-  for (std::size_t k = 0; k < steps.normal.size(); ++k) {
-    normal = std::max(normal, std::abs(steps.normal[k] - plane.normal[k]) / weight);
-    tangential = std::max(tangential, std::abs(steps.tangential[k] - plane.tangential[k]) / weight);
-    if (k > 0)
+  for (const double noise : {0.0, 1e-9}) {
+    TriangleMesh mesh = graded_plate();
+    if (noise > 0.0) roughen(mesh, noise, 3);
+    const SphereOnMesh ball = rolling_ball(mesh, ContactRule::automatic);
+    simulation::Setup on_plane = ball.setup();
+    on_plane.walls[0].mesh.shape = MeshShape::plane;
+    const Steps plane = roll(on_plane, ball.mesh), steps = roll(ball.setup(), ball.mesh);
+    ASSERT_EQ(plane.normal.size(), steps.normal.size());
+    EXPECT_GT(steps.points, 2000);
+    EXPECT_GT(steps.patches, 2000);
+    if (noise > 0.0) {
+      EXPECT_GT(steps.blended, 1000);
+    } else {
+      EXPECT_EQ(steps.blended, 0);
+    }
+    EXPECT_GT(steps.position.x, 0.018);
+    const double weight = norm(ball.load);
+    const double normal = farthest(steps.normal, plane.normal) / weight,
+                 tangential = farthest(steps.tangential, plane.tangential) / weight;
+    double jump = 0.0;
+    for (std::size_t k = 1; k < steps.normal.size(); ++k)
       jump = std::max(jump, std::abs((steps.tangential[k] - steps.tangential[k - 1]) -
                                      (plane.tangential[k] - plane.tangential[k - 1])) /
                                 weight);
+    const double energy = std::abs(norm2(steps.velocity) - norm2(plane.velocity)) / norm2(plane.velocity) +
+                          std::abs(norm2(steps.spin) - norm2(plane.spin)) / norm2(plane.spin);
+    // The force goes with the overlap to the power of 1.5, and the noise may be three of its deviations high.
+    const double bound = 1e-5 + 1.5 * 3.0 * noise / kDelta;
+    // Besides, the nearest point wanders to the highest node, and the damper feels the ball go uphill.
+    const double of_points =
+        noise > 0.0
+            ? farthest(roll(rolling_ball(mesh, ContactRule::resolved).setup(), mesh).normal, plane.normal) /
+                  weight
+            : bound;
+    measured(fmt::format("auto, rolling from h = 4 mm to 0.06 mm, noise {} nm: normal force against a plane",
+                         1e9 * noise),
+             normal, of_points);
+    measured("… tangential force", tangential, bound);
+    measured("… jump of the tangential force in a step", jump, 0.1 * bound);
+    measured("… energy at the end", energy, bound);
+    EXPECT_LT(normal, of_points);
+    EXPECT_LT(tangential, bound);
+    EXPECT_LT(jump, 0.1 * bound);
+    EXPECT_LT(energy, bound);
   }
-  const double energy = std::abs(norm2(steps.velocity) - norm2(plane.velocity)) / norm2(plane.velocity) +
-                        std::abs(norm2(steps.spin) - norm2(plane.spin)) / norm2(plane.spin);
-  measured("auto, rolling from h = 4 mm to 0.06 mm: normal force against a plane", normal, 1e-5);
-  measured("… tangential force", tangential, 1e-5);
-  measured("… jump of the tangential force in a step", jump, 1e-6);
-  measured("… energy at the end", energy, 1e-5);
-  EXPECT_LT(normal, 1e-5);
-  EXPECT_LT(tangential, 1e-5);
-  EXPECT_LT(jump, 1e-6);
-  EXPECT_LT(energy, 1e-5);
 }
 
 /// Elastic force on a ball at a place, frictionless.
@@ -221,6 +243,35 @@ TEST(AutoWall, ForceIsContinuousWhereTheRuleChanges) {
                of_rule[0], std::max({of_rule[1], of_rule[2], 2e-6}));
       EXPECT_LE(of_rule[0], std::max({of_rule[1], of_rule[2], 2e-6}));
     }
+}
+
+/// Over a convex edge of 90 degrees and back through the air: net over gross work, where the shares of the
+/// rules change along the way.
+TEST(AutoWall, WorkAroundAnEdgeIsSmallWhereBothRulesShare) {
+  const double half = 10e-3, reach = 0.98 * R, s = std::sqrt(0.5);
+  const std::vector<Vec3> corners{
+      {half + reach, 0.3e-3, half - 1e-3},          {half + 0.99 * reach, 0.3e-3, half + 0.3e-3},
+      {half + s * reach, 0.3e-3, half + s * reach}, {half - 1e-3, 0.3e-3, half + reach},
+      {half - 1e-3, 0.3e-3, half + 1.1 * R},        {half + 1.1 * R, 0.3e-3, half - 1e-3}};
+  for (const int cells : {4, 20, 28, 60}) {
+    Press press(box_mesh(half, cells), ContactRule::automatic);
+    double net = 0.0, gross = 0.0, most = 0.0;
+    constexpr int n = 1000;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3 step = (corners[(k + 1) % corners.size()] - corners[k]) / n;
+      for (int i = 0; i < n; ++i) {
+        const double work = dot(press(corners[k] + (i + 0.5) * step), step);
+        net += work;
+        gross += std::abs(work);
+        most = std::max(most, press.patch);
+      }
+    }
+    measured(fmt::format(
+                 "auto, loop over a convex edge, h = {:.2f} mm (share of patch up to {:.2f}): net/gross work",
+                 2e3 * half / cells, most),
+             std::abs(net) / gross, 0.05);
+    EXPECT_LT(std::abs(net) / gross, 0.05);
+  }
 }
 
 /// Grains fall onto the graded plate and slide: what they wear, and how often they strike.

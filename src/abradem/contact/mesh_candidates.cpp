@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +13,11 @@
 namespace abradem::contact {
 
 namespace {
+
+std::uint64_t next_stamp() noexcept {
+  static std::atomic<std::uint64_t> last{0};
+  return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
 
 using geometry::TriangleMesh;
 
@@ -151,6 +157,7 @@ void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec
     }
     revision_ = surface.revision;
   }
+  odometer_ = surface.odometer;
 }
 
 void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
@@ -185,6 +192,7 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   odometer_at_gather_ = odometer_at_measure_ = surface.odometer;
   revision_ = surface.revision;
   ++gatherings_;
+  stamp_ = next_stamp();
 }
 
 bool MeshCandidates::restore(const TriangleMesh& mesh) {
@@ -200,6 +208,7 @@ bool MeshCandidates::restore(const TriangleMesh& mesh) {
   bound_depth();
   // Where wear has moved the surface since the last fetch, the next update fetches again.
   fetch_positions(mesh);
+  stamp_ = next_stamp();
   return true;
 }
 

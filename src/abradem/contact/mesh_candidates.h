@@ -74,6 +74,10 @@ class MeshCandidates {
   [[nodiscard]] bool nearly_flat() const noexcept { return nearly_flat_; }
   [[nodiscard]] Vec3 node_position(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
   [[nodiscard]] std::uint64_t gatherings() const noexcept { return gatherings_; }
+  /// A number that no other gathering has, of this or another object.
+  [[nodiscard]] std::uint64_t stamp() const noexcept { return stamp_; }
+  /// The surface's odometer at the last update [m].
+  [[nodiscard]] double odometer() const noexcept { return odometer_; }
 
   /// Number of nodes in front, in whole lanes, behind which no excess is above `least` (nodes are numbered
   /// outwards too).
@@ -117,7 +121,8 @@ class MeshCandidates {
   Vec3 built_at_, built_axis_;
   CandidateSkin built_skin_;
   double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
-  std::uint64_t revision_ = 0, gatherings_ = 0;
+  double odometer_ = 0.0;
+  std::uint64_t revision_ = 0, gatherings_ = 0, stamp_ = 0;
   std::vector<Vec3> measured_;  // nodes' positions when the triangles were last measured
   std::vector<Index> near_;     // scratch: triangles of the cells near the way
   std::vector<double> across_;  // scratch: their distances from the way, or -1: out of reach

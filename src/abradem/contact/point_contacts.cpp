@@ -53,13 +53,30 @@ bool stronger(const PointContact& a, const PointContact& b) noexcept {
 
 }  // namespace
 
-void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip) {
+/// What the sphere has come since the candidates were gathered, and the surface towards it.
+void PointContactFinder::travel(const MeshCandidates& candidates, const Vec3& c, double R) {
+  if (stamp_ != candidates.stamp() || radius_ != R) {
+    wake_.assign(candidates.triangle_count(), 0.0);
+    way_ = 0.0;
+  } else {
+    way_ += norm(c - last_) + candidates.odometer() - odometer_;
+  }
+  stamp_ = candidates.stamp();
+  radius_ = R;
+  last_ = c;
+  odometer_ = candidates.odometer();
+}
+
+void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip,
+                                 bool sheet) {
+  travel(candidates, c, R);
   touched_.clear();
   excess_.assign(candidates.x.size(), -1.0);
   const double inverse = 1.0 / (R * R);
   for (std::size_t i = 0; i < candidates.node_count(); ++i)
     excess_[i] = 1.0 - norm2(candidates.node_position(i) - c) * inverse;
   for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
+    if (wake_[t] > way_) continue;
     const double highest = std::max(
         {excess_[at(candidates.v0[t])], excess_[at(candidates.v1[t])], excess_[at(candidates.v2[t])]});
     if (highest + candidates.longest[t] * inverse / 3.0 <= 0.0) continue;  // nowhere inside the ball
@@ -68,9 +85,11 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
         candidates.node_position(at(candidates.v2[t])));
     const Vec3 offset = c - closest.point;
     const double distance = norm(offset);
+    if (distance >= R) wake_[t] = way_ + 0.999 * (distance - R);  // less by what rounding might do
     if (distance >= R || distance == 0.0) continue;
     // A triangle seen from behind belongs to the far side of the solid.
-    if (candidates.ax[t] * offset.x + candidates.ay[t] * offset.y + candidates.az[t] * offset.z < 0.0)
+    if (!sheet &&
+        candidates.ax[t] * offset.x + candidates.ay[t] * offset.y + candidates.az[t] * offset.z < 0.0)
       continue;
     const auto local = static_cast<std::int32_t>(t);
     const double overlap = tip.worn() ? tip.overlap(-offset, R) : R - distance;
@@ -85,7 +104,7 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
 
 std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates,
                                                                const Vec3& c, double R, const Tip& tip) {
-  collect(candidates, c, R, tip);
+  collect(candidates, c, R, tip, false);
   std::sort(touched_.begin(), touched_.end(), stronger);
   accepted_.clear();
   for (const PointContact& p : touched_) {
@@ -106,8 +125,8 @@ std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandida
 }
 
 std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates& candidates, const Vec3& c,
-                                                           double R, const Tip& tip) {
-  collect(candidates, c, R, tip);
+                                                           double R, const Tip& tip, bool sheet) {
+  collect(candidates, c, R, tip, sheet);
   find_flat_sets(candidates);
   // Each set's deepest point, strongest sets first.
   std::vector<PointContact> best;

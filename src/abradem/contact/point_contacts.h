@@ -32,8 +32,9 @@ class PointContactFinder {
   /// Rule `resolved`: one contact, the deepest, per connected set of overlapped triangles that lie within 5
   /// degrees of their neighbours; an edge or vertex of a set that touches another contact's set there is that
   /// contact. Angles are those of the mesh as it is now.
+  /// @param sheet the surface is a thin sheet: triangles are touched from behind, too
   std::span<const PointContact> resolved(const MeshCandidates& candidates, const Vec3& c, double R,
-                                         const Tip& tip = {});
+                                         const Tip& tip = {}, bool sheet = false);
 
   /// 1 - |x - c|^2 / R^2 of each candidate node, from the last call, padded; > 0 inside. With a worn tip:
   /// the excess that has the overlap with it.
@@ -45,7 +46,8 @@ class PointContactFinder {
   [[nodiscard]] std::span<const int> sets() const noexcept { return set_; }
 
  private:
-  void collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip);
+  void collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip, bool sheet);
+  void travel(const MeshCandidates& candidates, const Vec3& c, double R);
   void find_flat_sets(const MeshCandidates& candidates);
 
   std::vector<PointContact> touched_;  // nearest point of every triangle that the ball cuts
@@ -53,6 +55,11 @@ class PointContactFinder {
   std::vector<int> set_;
   std::vector<double> excess_, raw_;
   TipCorrection correction_;
+  // Triangles out of reach: how far the sphere and the surface must have come before each can be touched.
+  std::vector<double> wake_;  // [m]
+  double way_ = 0.0, odometer_ = 0.0, radius_ = 0.0;
+  Vec3 last_;
+  std::uint64_t stamp_ = 0;  // of the candidates that these are of
 };
 
 }  // namespace abradem::contact

@@ -349,6 +349,20 @@ class Checker {
       error(path + ".deformation",
             fmt::format("wall '{}' is an analytic plane, which has no nodes to move; use a plate or a disc",
                         wall.name));
+    if (wall.sides == Sides::both && wall.mesh.shape == MeshShape::plane)
+      error(
+          path + ".sides",
+          fmt::format("wall '{}' is an analytic plane, with a half space behind it; of a sheet use a plate, "
+                      "a disc or a file",
+                      wall.name));
+    else if (wall.sides == Sides::both &&
+             (wall.contact != ContactRule::resolved || wall.deformation != DeformationRule::none))
+      error(path + ".sides",
+            fmt::format(
+                "wall '{}' is touched from both sides, which takes contact = \"resolved\" and "
+                "deformation = \"none\": a sheet of one layer has no solid behind it that a patch could "
+                "overlap or wear take away",
+                wall.name));
     if (wall.motion.surface_velocity != Vec3{} && setup_.run.method == Method::quasi_static &&
         good("run.method"))
       error(path + ".motion.surface_velocity",

@@ -293,6 +293,13 @@ simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems&
     made_absolute(insertion.volume.file);
   }
   if (setup.study) made_absolute(setup.study->published);
+  // A named pin was measured with patches; a plant's walls have triangles of any size.
+  if (!setup.insertions.empty() && setup.particles.empty())
+    for (simulation::WallSetup& wall : setup.walls)
+      if (!places.given(fmt::format("wall.{}.contact", toml_key(wall.name))) &&
+          wall.deformation != simulation::DeformationRule::paper)
+        wall.contact = wall.sides == simulation::Sides::both ? simulation::ContactRule::resolved
+                                                             : simulation::ContactRule::automatic;
   // The default of one frame per revolution has no meaning where nothing turns.
   constexpr double kFrames = 10.0;
   if (!places.given("output.every") && !counts_revolutions(setup))

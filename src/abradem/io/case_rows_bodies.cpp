@@ -16,6 +16,7 @@ constexpr std::array kMotions{"none"sv, "rotation"sv, "translation"sv, "oscillat
 constexpr std::array kTableEnds{"hold"sv, "repeat"sv};
 constexpr std::array kContactRules{"patch"sv, "resolved"sv, "per_triangle"sv, "auto"sv};
 constexpr std::array kDeformations{"none"sv, "conserving"sv, "paper"sv};
+constexpr std::array kSides{"front"sv, "both"sv};
 constexpr std::array kFootprints{"hertz"sv, "overlap"sv};
 constexpr std::array kGuides{"none"sv, "vertical"sv};
 
@@ -46,12 +47,26 @@ const std::array kRows{
         .need = Need::has_default,
         .slot = ABRADEM_CHOICE(wall->contact),
         .choices = kContactRules,
+        .default_note =
+            "`\"patch\"`; where all particles are in numbers `\"auto\"` (`\"resolved\"` for a sheet with "
+            "two sides)",
         .example = "\"patch\"",
         .doc = "How a sphere meets the triangles: as one patch independent of the mesh (patch), as one point "
                "per "
                "connected flat part (resolved), triangle by triangle (per_triangle), or by each contact as "
                "patch "
                "where its triangles are fine and as resolved where they are coarse (auto)."},
+    Row{.section = "wall.*",
+        .key = "sides",
+        .kind = Kind::choice,
+        .need = Need::has_default,
+        .slot = ABRADEM_CHOICE(wall->sides),
+        .choices = kSides,
+        .example = "\"both\"",
+        .doc =
+            "The sides that can be touched: of a solid the one its triangles' normals point to (front), of a "
+            "thin sheet of one layer of triangles both, which takes contact = \"resolved\" and no "
+            "deformation."},
     Row{.section = "wall.*",
         .key = "deformation",
         .kind = Kind::choice,

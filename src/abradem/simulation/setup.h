@@ -139,6 +139,8 @@ struct MotionSetup {
 enum class ContactRule { patch, resolved, per_triangle, automatic };
 enum class DeformationRule { none, conserving, paper };
 enum class Footprint { hertz, overlap };
+/// The sides of a surface that can be touched: of a solid the one its normals point to, of a thin sheet both.
+enum class Sides { front, both };
 
 struct WallSetup {
   std::string name;
@@ -147,6 +149,7 @@ struct WallSetup {
   MotionSetup motion;
   std::vector<MotionSetup> carried_by;  ///< motions on top of `motion`, one after the other
   ContactRule contact = ContactRule::patch;
+  Sides sides = Sides::front;  ///< both: with contact `resolved` and no deformation
   DeformationRule deformation = DeformationRule::none;
   Footprint footprint = Footprint::hertz;
   int deform_every = 1;             ///< steps between updates of the shape; 1 in the rule `paper`

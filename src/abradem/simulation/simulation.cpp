@@ -116,6 +116,14 @@ void Simulation::find_pair_properties() {
   }
   refuse_missing_pairs(given);
   for (const Wall& wall : walls_)
+    if (wall.setup().sides == Sides::both &&
+        (wall.is_plane() || wall.setup().contact != ContactRule::resolved ||
+         wall.setup().deformation != DeformationRule::none))
+      throw InputError(
+          fmt::format("wall '{}': a sheet with two sides takes a mesh, contact = \"resolved\" and "
+                      "deformation = \"none\"",
+                      wall.setup().name));
+  for (const Wall& wall : walls_)
     for (std::size_t m = 0; m < n; ++m)
       if (!wall.is_plane() && wall.setup().contact != ContactRule::resolved &&
           pair(static_cast<int>(m), wall.material()).options.adhesion > 0.0)

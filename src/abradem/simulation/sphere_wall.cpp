@@ -61,20 +61,22 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
   }
   candidates_.update(wall.view(), c, axis_, reach_, skin_);
   if (stale_) note_nodes();
-  if (stale_ && wall.setup().contact == ContactRule::automatic) note_width();
+  const bool patches_first = by_patches(wall);
   touches_.clear();
   switch (wall.setup().contact) {
     case ContactRule::patch:
       touch_patches(R, patches_.evaluate(candidates_, c, R, pair, tip_));
       break;
     case ContactRule::resolved:
-      touch_points(wall, R, pair, points_.resolved(candidates_, c, R + stretch_of(pair, R), tip_));
+      touch_points(
+          wall, R, pair,
+          points_.resolved(candidates_, c, R + stretch_of(pair, R), tip_, wall.setup().sides == Sides::both));
       break;
     case ContactRule::per_triangle:
       touch_points(wall, R, pair, points_.per_triangle(candidates_, c, R, tip_));
       break;
     case ContactRule::automatic:
-      touch_either(wall, c, R, pair);
+      touch_either(wall, c, R, pair, patches_first);
       break;
   }
   if (!touches_.empty()) axis_ = -touches_.front().n;
@@ -120,32 +122,29 @@ void SphereWall::touch_points(const Wall& wall, double R, const contact::PairPro
 }
 
 /// Both rules, each with its share. The shares follow from the overlapped triangles alone, so the force is as
-/// continuous as those of the rules, and no part of it depends on what was chosen before.
-void SphereWall::touch_either(const Wall& wall, const Vec3& c, double R,
-                              const contact::PairProperties& pair) {
-  // Where triangles are large, no contact comes near to being fine: the patches need not be asked.
-  constexpr double kLarge = 0.25;  // of R
-  constexpr double kMargin = 0.9;  // wear narrows triangles after they were gathered
-  if (narrowest_ > kLarge * R) {
-    const auto points = points_.resolved(candidates_, c, R);
-    double deepest = 0.0;
-    for (const contact::PointContact& p : points) deepest = std::max(deepest, p.overlap);
-    if (contact::fineness(contact::contact_radius(R, deepest), kMargin * narrowest_) == 0.0) {
-      patches_.forget();
-      touch_points(wall, R, pair, points);
-      return;
-    }
-  }
+/// continuous as those of the rules. What went before decides only which rule is asked first.
+void SphereWall::touch_either(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair,
+                              bool patches_first) {
+  std::span<const contact::PointContact> points;
+  const auto points_do = [&] {
+    points = points_.resolved(candidates_, c, R);
+    if (!suit_points(points, R)) return false;
+    patches_.forget();
+    touches_.clear();
+    touch_points(wall, R, pair, points);
+    return true;
+  };
+  if (!patches_first && points_do()) return;
   touch_patches(R, patches_.evaluate(candidates_, c, R, pair, tip_));
-  bool all = !touches_.empty();
+  const std::size_t patches = touches_.size();
+  bool all = patches > 0;
   for (Touch& t : touches_) {
     t.weight =
         patches_.fineness_of(candidates_, patches_.clusters(), t.part, contact::contact_radius(R, t.deepest));
     all = all && t.weight == 1.0;
   }
-  if (all) return;
-  const std::size_t patches = touches_.size();
-  touch_points(wall, R, pair, points_.resolved(candidates_, c, R));
+  if (all || (patches_first && points_do())) return;
+  touch_points(wall, R, pair, points);
   for (std::size_t k = patches; k < touches_.size(); ++k) {
     Touch& t = touches_[k];
     double fine = patches == 0 ? 0.0 : patches_.fineness_of(candidates_, points_.sets(), t.part, t.a);
@@ -156,17 +155,36 @@ void SphereWall::touch_either(const Wall& wall, const Vec3& c, double R,
   for (Touch& t : touches_) t.elastic_force *= t.weight;
 }
 
+/// Do point contacts stand for the whole, so that the patches need not be asked? Where all triangles near the
+/// ball are coarse; and on one plane, where the two rules are equal, unless all are fine.
+bool SphereWall::suit_points(std::span<const contact::PointContact> points, double R) const noexcept {
+  constexpr double kPlane2 = 1e-12;  // sine squared
+  if (points.empty()) return false;
+  double deepest = 0.0;
+  for (const contact::PointContact& p : points) deepest = std::max(deepest, p.overlap);
+  const double a = contact::contact_radius(R, deepest), inverse = 1.0 / (R * R);
+  const contact::MeshCandidates& m = candidates_;
+  const std::span<const double> excess = points_.node_excess();
+  const auto normal = [&m](std::size_t t) { return Vec3{m.ax[t], m.ay[t], m.az[t]}; };
+  const auto first = static_cast<std::size_t>(points.front().triangle);
+  bool coarse = true, fine = true, plane = points.size() == 1;
+  for (std::size_t t = 0; t < m.triangle_count(); ++t) {
+    const double highest = std::max({excess[at(m.v0[t])], excess[at(m.v1[t])], excess[at(m.v2[t])]});
+    if (highest + m.longest[t] * inverse / 3.0 <= 0.0) continue;  // nowhere inside the ball
+    const double share = contact::fineness(a, contact::width_of(m, t));
+    coarse = coarse && share == 0.0;
+    fine = fine && share == 1.0;
+    plane =
+        plane && norm2(cross(normal(t), normal(first))) <= kPlane2 * norm2(normal(t)) * norm2(normal(first));
+  }
+  return coarse || (plane && !fine);
+}
+
 /// Does the surface act through patches alone now?
 bool SphereWall::by_patches(const Wall& wall) const noexcept {
   if (wall.is_plane()) return false;
   if (wall.setup().contact != ContactRule::automatic) return wall.setup().contact == ContactRule::patch;
   return !touches_.empty() && std::ranges::none_of(touches_, &Touch::of_point);
-}
-
-void SphereWall::note_width() {
-  narrowest_ = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < candidates_.triangle_count(); ++t)
-    narrowest_ = std::min(narrowest_, contact::width_of(candidates_, t));
 }
 
 void SphereWall::touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
@@ -610,6 +628,8 @@ double SphereWall::pending_volume() const noexcept {
 /// Adds what the centroids of the elements in contact have moved since they were last noted.
 void SphereWall::add_centroid_motion(const Wall& wall) {
   if (wall.setup().deformation != DeformationRule::conserving) return;
+  if (noted_revision_ == wall.view().revision && !noted_.empty()) return;  // nothing has moved since
+  noted_revision_ = wall.view().revision;
   const geometry::TriangleMesh& mesh = wall.surface().mesh();
   const bool patch = by_patches(wall);
   const std::span<const double> excess = patches_.node_excess();
@@ -665,6 +685,7 @@ geometry::Index SphereWall::nearest_triangle(const Vec3& c) const noexcept {
 }
 
 void SphereWall::note_nodes() {
+  noted_revision_ = kNeverNoted;
   noted_.resize(candidates_.node_count());
   motion_.assign(candidates_.x.size(), {});
   for (std::size_t i = 0; i < noted_.size(); ++i) noted_[i] = candidates_.node_position(i);
@@ -675,7 +696,6 @@ bool SphereWall::restore(const Wall& wall) {
   patches_.restore(tip_);
   if (wall.is_plane()) return true;
   if (!candidates_.restore(wall.surface().mesh())) return false;
-  if (wall.setup().contact == ContactRule::automatic) note_width();
   const std::size_t nodes = candidates_.node_count(), padded = candidates_.x.size();
   motion_.assign(padded, {});
   return (noted_.empty() || noted_.size() == nodes) &&

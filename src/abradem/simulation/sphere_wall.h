@@ -298,8 +298,9 @@ class SphereWall {
   void touch_patches(double R, std::span<const contact::Patch> patches);
   void touch_points(const Wall& wall, double R, const contact::PairProperties& pair,
                     std::span<const contact::PointContact> points);
-  void touch_either(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
-  void note_width();
+  void touch_either(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair,
+                    bool patches_first);
+  [[nodiscard]] bool suit_points(std::span<const contact::PointContact> points, double R) const noexcept;
   [[nodiscard]] bool by_patches(const Wall& wall) const noexcept;
   Memory& recall(const Touch& touch, ContactRule rule);
   void watch_impact(Memory& memory, const Touch& touch, const Vec3& v) noexcept;
@@ -322,7 +323,6 @@ class SphereWall {
   std::vector<Memory> memory_, kept_;
   std::vector<char> mask_;
   std::vector<double> density_;       // scratch: of a footprint's share at each candidate node [1/m^2]
-  double narrowest_ = 0.0;            // `automatic`: least width of the candidates as they were gathered [m]
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
   bool stale_ = true;                 // the candidates were gathered anew in this step
   double reach_ = 0.0;
@@ -336,8 +336,10 @@ class SphereWall {
   double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
   double tip_area_ = 0.0;                       // of the tip under pressure, of late [m^2]
   wear::RidgeBuilder ridges_;
-  double unpiled_ = 0.0, slid_ = 0.0;                 // since the last pile [m^3, m]
-  std::vector<Pressing> ploughing_;                   // the last contacts
+  double unpiled_ = 0.0, slid_ = 0.0;  // since the last pile [m^3, m]
+  std::vector<Pressing> ploughing_;    // the last contacts
+  static constexpr std::uint64_t kNeverNoted = ~std::uint64_t{0};
+  std::uint64_t noted_revision_ = kNeverNoted;        // of the surface, when its nodes were last noted
   std::vector<Vec3> noted_;                           // of each candidate node: where it was when last noted
   std::vector<contact::kernels::NodeMotion> motion_;  // since then, padded
   std::vector<double> terms_;                         // scratch
