@@ -135,7 +135,7 @@ function wearMapFigure(map, arrays) {
     if (!(most > 0)) return { empty: `This wall has no ${quantity.title.replace(/ \[.*\]$/, '')}.` };
     const [px, py, pz] = [part(x), part(y), part(z)];
     const range = (p) => { const a = smallest(p), b = largest(p), pad = 0.02 * (b - a) + 1e-6; return [a - pad, b + pad]; };
-    const ranges = [range(px), range(py), range(pz)], size = largest(ranges.map((r) => r[1] - r[0])), far = narrow() ? 1.5 : 1;
+    const ranges = [range(px), range(py), range(pz)], size = largest(ranges.map((r) => r[1] - r[0])), far = narrow() ? 1.6 : 1.3;
     // Axes of a thin wall would crowd: its short side has none.
     const ratio = (r) => Math.max(.02, 1.4 * (r[1] - r[0]) / size), shown = (r) => ratio(r) > .15;
     return {

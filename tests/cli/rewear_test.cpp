@@ -129,7 +129,8 @@ TEST(Rewear, FindsWhatRunsByOtherLawsFind) {
   const json twice = rewear("impacts --name t --set 'wear.\"ore/steel\".finnie_coefficient=2e-10 1/Pa'");
   EXPECT_NEAR(total(twice, "finnie_mm3") / (2.0 * of_run("impacts", "finnie_mm3")), 1.0, 1e-8);
   EXPECT_TRUE(twice.at("regions")[0].at("exact").get<bool>());
-  for (const char* file : {"rewear_t.html", "rewear_t.case.toml", "tables/rewear_t_regions.csv"})
+  for (const char* file :
+       {"rewear_t.html", "rewear_t.case.toml", "tables/rewear_t_regions.csv", "tables/rewear_t_worst.csv"})
     EXPECT_TRUE(fs::exists(folder / "impacts" / file)) << file;
 }
 

@@ -200,7 +200,9 @@ int rewear_command(const RewearArguments& arguments) {
   io::write_reworn_regions(tables / (stem + "_regions.csv"), summary.reworn);
   io::write_file_atomically(folder / (stem + ".case.toml"), io::resolved_case(after));
   const fs::path page = folder / (stem + ".html");
-  io::write_file_atomically(page, report::page_html(report::rewear_page(summary)));
+  const report::Page content = report::rewear_page(summary);
+  report::write_section_tables(folder, content.sections);
+  io::write_file_atomically(page, report::page_html(content));
   if (!arguments.quiet) print_message(fmt::format("page: {}", page.string()));
   print_result(arguments.json ? report::rewear_json(summary) : report::rewear_text(summary));
   return static_cast<int>(ExitCode::ok);

@@ -91,7 +91,7 @@ void write_integrals(const std::filesystem::path& path, const Simulation& run) {
         const WearMap::Element& e = layer.elements[t];
         if (!e.touched()) continue;
         const wear::Impact mean =
-            e.impacts.count > 0 ? e.impacts.mean() : wear::Impact{kNone, kNone, 0.0, kNone};
+            e.impacts.mass > 0.0 ? e.impacts.mean() : wear::Impact{kNone, kNone, 0.0, kNone};
         table.row({static_cast<double>(w), static_cast<double>(layer.abrader),
                    static_cast<double>(map.region_of(t)), static_cast<double>(t),
                    kMm2 * place_of(run.walls()[w].surface(), t).area, of_test * e.force_sliding,

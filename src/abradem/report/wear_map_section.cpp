@@ -64,7 +64,7 @@ DataTable places_table(const RunFolder& run) {
                 .caption =
                     "The deepest element of each place; places are a twentieth of the worn extent apart. "
                     "Rates are means over the run, with the wear coefficients of the case.",
-                .columns = {"wall", "element", "x, y, z [mm]", "depth [µm]", "rate [µm/h]"}};
+                .columns = {"wall", "element", "x, y, z [mm]", "depth [µm]", "rate [mm/h]"}};
   if (liner) out.columns.emplace_back("worn through after [h]");
   out.columns.insert(out.columns.end(), {"sliding [mm]", "impacts [-]", "peak pressure [MPa]"});
   for (const std::size_t r : places) {
@@ -72,7 +72,7 @@ DataTable places_table(const RunFolder& run) {
     std::vector<std::string> row{
         name_of(run, t["wall"][r]), fmt::format("{}", static_cast<long long>(t["element"][r])),
         fmt::format("{}, {}, {}", readable(t["x_mm"][r]), readable(t["y_mm"][r]), readable(t["z_mm"][r])),
-        readable(depth), readable(rate)};
+        readable(depth), readable(1e-3 * rate)};
     if (liner) {
       const std::optional<double> thickness = thickness_um(run, t["wall"][r]);
       row.push_back(thickness && rate > 0.0 ? readable(*thickness / rate) : "–");

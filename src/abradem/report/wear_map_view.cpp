@@ -56,9 +56,10 @@ std::optional<WearMapView> wear_map_view(const std::vector<WallFrame>& frames, s
   if (walls.empty()) return std::nullopt;
   WearMapView view;
   for (const auto& [key, title] : kQuantities) view.quantities.push_back({key, title, {}});
-  for (const auto& [name, surface] : walls) {
+  for (const auto& mapped : walls) {
+    const io::VtpSurface& surface = mapped.second;
     WearMapView::Wall& wall = view.walls.emplace_back();
-    wall.name = name;
+    wall.name = mapped.first;
     wall.first_vertex = view.x_mm.size();
     wall.first_triangle = view.i.size();
     wall.mesh_triangles = surface.mesh.triangles.size();

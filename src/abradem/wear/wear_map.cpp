@@ -51,6 +51,13 @@ void WearMap::Booking::add(std::size_t element, double share, double area) noexc
   e.oka += share * s_.volumes[static_cast<std::size_t>(Mechanism::oka)];
   e.peak_pressure =
       std::max(e.peak_pressure, contact.F_n / s_.weight * share / std::min(area, s_.hertz_area));
+  if (s_.strikes) {
+    const double weight = share * s_.impact.mass * s_.impact.speed * s_.impact.speed;
+    e.impacts.mass += share * s_.impact.mass;
+    e.impacts.mv2 += weight;
+    e.impacts.angle += weight * s_.impact.angle;
+    e.impacts.diameter += weight * s_.impact.diameter;
+  }
   if (share > largest_share_) largest_ = element, largest_share_ = share;
 }
 
@@ -68,7 +75,7 @@ void WearMap::Booking::finish() {
   if (!s_.strikes) return;
   const Impact& impact = s_.impact;
   Element& e = layer_.elements[largest_];
-  e.impacts.add(impact);
+  ++e.impacts.count;
   spectra.impacts[Spectra::impact_key(impact)].add(impact);
 }
 

@@ -161,7 +161,7 @@ class WearMap {
     double sliding = 0.0;            ///< s [m]
     double finnie = 0.0, oka = 0.0;  ///< worn by these laws [m^3]
     double peak_pressure = 0.0;      ///< largest of F_n share / min(area of the element, Hertz's circle) [Pa]
-    ImpactSums impacts;              ///< those whose largest share fell here
+    ImpactSums impacts;              ///< by their shares; counted: those whose largest fell here
 
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
