@@ -45,8 +45,9 @@ TEST(CaseJsonSchema, StatesChoicesDefaultsAndWhatIsRequired) {
   const Json& wall = section_of(schema, "wall.*");
   EXPECT_EQ(wall.at("properties").at("contact").at("enum"),
             Json({"patch", "resolved", "per_triangle", "auto"}));
-  EXPECT_NE(wall.at("properties").at("contact").at("description").get<std::string>().find("Default: `\"patch\"`"),
-            std::string::npos);
+  EXPECT_NE(
+      wall.at("properties").at("contact").at("description").get<std::string>().find("Default: `\"patch\"`"),
+      std::string::npos);
   EXPECT_EQ(wall.at("properties").at("deformation").at("default"), "none");
   EXPECT_EQ(wall.at("required"), Json({"material", "mesh"}));
   EXPECT_EQ(schema.at("required"), Json({"schema", "material", "wall", "run"}));

@@ -42,7 +42,7 @@ TEST_P(AnyRules, GoOnToTheSameBitsFromAnyStep) {
   pin.contact = GetParam().contact;
   pin.deformation = GetParam().deformation;
   if (pin.contact == ContactRule::automatic) pin.size = 0.45e-3;  // both rules have a share
-  pin.friction = 0.3;  // sticks first, slips then
+  pin.friction = 0.3;                                             // sticks first, slips then
   simulation::Setup setup = pin.setup();
   const bool dynamic = pin.method == Method::dynamic;
   setup.output.every = {dynamic ? 0.001 : 0.01, true};
