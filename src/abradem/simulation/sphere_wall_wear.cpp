@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a contact between a sphere and a wall wears off: where it falls, off the sphere's tip, into ridges.
+#include <algorithm>
+#include <cmath>
+
+#include "abradem/simulation/sphere_wall.h"
+
+namespace abradem::simulation {
+
+namespace {
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+}  // namespace
+
+/// Where the Hertz footprint lies wholly inside one triangle, its pressure is symmetric about the nearest
+/// point, so that its moments with the (linear) shape functions are these functions there: no integral is
+/// needed.
+bool SphereWall::lands_inside(const Touch& touch, double R, const contact::PairProperties& pair,
+                              Landing& landing) const {
+  const auto t = static_cast<std::size_t>(touch.nearest);
+  const double a =
+      contact::contact_radius(R, contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight));
+  const Vec3 p0 = candidates_.node_position(at(candidates_.v0[t])),
+             p1 = candidates_.node_position(at(candidates_.v1[t])),
+             p2 = candidates_.node_position(at(candidates_.v2[t]));
+  const Vec3 area = cross(p1 - p0, p2 - p0);
+  const double area2 = norm2(area);
+  // Shares of the area opposite each corner; over an edge's length, distances from the edges.
+  const double b0 = dot(area, cross(p2 - p1, touch.point - p1)) / area2,
+               b1 = dot(area, cross(p0 - p2, touch.point - p2)) / area2, b2 = 1.0 - b0 - b1;
+  const double size = std::sqrt(area2);
+  if (b0 * size < a * norm(p2 - p1) || b1 * size < a * norm(p0 - p2) || b2 * size < a * norm(p1 - p0))
+    return false;
+  landing = {touch.nearest, b0, b1, b2, nullptr};
+  return true;
+}
+
+/// Where what a contact does to the wall falls; on a plane nowhere.
+SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, double R,
+                                     const contact::PairProperties& pair) {
+  if (wall.is_plane()) return {};
+  const bool paper = wall.setup().deformation == DeformationRule::paper;
+  if (wall.setup().contact == ContactRule::per_triangle) {
+    if (paper) return {touch.part, 0.0, 0.0, 0.0, nullptr};
+    const auto t = static_cast<std::size_t>(touch.part);
+    const Vec3 a = candidates_.node_position(at(candidates_.v0[t]));
+    const Vec3 e1 = candidates_.node_position(at(candidates_.v1[t])) - a;
+    const Vec3 e2 = candidates_.node_position(at(candidates_.v2[t])) - a;
+    const Vec3 p = touch.point - a;
+    const double d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), det = d11 * d22 - d12 * d12;
+    const double b1 = std::clamp((d22 * dot(p, e1) - d12 * dot(p, e2)) / det, 0.0, 1.0);
+    const double b2 = std::clamp((d11 * dot(p, e2) - d12 * dot(p, e1)) / det, 0.0, 1.0 - b1);
+    return {touch.part, 1.0 - b1 - b2, b1, b2, nullptr};
+  }
+
+  Landing landing;
+  if (touch.of_point && !paper && !tip_.worn() && wall.setup().footprint == Footprint::hertz &&
+      lands_inside(touch, R, pair, landing))
+    return landing;
+  const std::span<const char> mask = mask_of(wall, touch.part, touch.of_point);
+  const wear::OverlapField field = overlap_field(R, touch.deepest, touch.of_point);
+  landing.shares =
+      wall.setup().footprint == Footprint::hertz
+          ? &footprint_.hertz(candidates_, field,
+                              contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight), paper, mask)
+          : &footprint_.overlap(candidates_, field, paper, mask);
+  if (!(landing.shares->total > 0.0)) landing.shares = nullptr;
+  return landing;
+}
+
+void SphereWall::deposit_landed(Wall& wall, const Landing& landing, double dV) {
+  if (landing.nowhere()) return;
+  wear::WearingSurface& surface = wall.surface();
+  const bool paper = wall.setup().deformation == DeformationRule::paper;
+  if (landing.triangle >= 0) {
+    const geometry::Index t = candidates_.triangle[at(landing.triangle)];
+    if (paper)
+      surface.deposit_element(t, dV);
+    else
+      surface.deposit(t, dV, dV * landing.at0, dV * landing.at1, dV * landing.at2);
+    return;
+  }
+  const wear::FootprintShares& shares = *landing.shares;
+  const double scale = dV / shares.total;
+  if (paper) {
+    for (std::size_t t = 0; t < shares.count; ++t)
+      if (const double w = (shares.at0[t] + shares.at1[t]) + shares.at2[t]; w > 0.0)
+        surface.deposit_element(candidates_.triangle[t], scale * w);
+  } else if (shares.nodal) {
+    node_pending_.resize(candidates_.x.size());
+    for (std::size_t i = 0; i < shares.at_node.size(); ++i) {
+      if (!(shares.at_node[i] > 0.0)) continue;
+      const double volume = scale * shares.at_node[i];
+      node_pending_[i] += volume;
+      surface.deposit_at_vertex(candidates_.node[i], volume);
+    }
+  } else {
+    for (std::size_t t = 0; t < shares.count; ++t)
+      if (const double w = (shares.at0[t] + shares.at1[t]) + shares.at2[t]; w > 0.0)
+        surface.deposit(candidates_.triangle[t], scale * w, scale * shares.at0[t], scale * shares.at1[t],
+                        scale * shares.at2[t]);
+  }
+}
+
+/// Triangles of one contact (0: not of it); empty: all.
+std::span<const char> SphereWall::mask_of(const Wall& wall, int part, bool of_point) {
+  const std::span<const int> parts = of_point ? points_.sets() : patches_.clusters();
+  if (parts.empty() || wall.setup().contact == ContactRule::per_triangle) return {};
+  mask_.resize(candidates_.triangle_count());
+  for (std::size_t t = 0; t < mask_.size(); ++t) mask_[t] = parts[t] == part;
+  return mask_;
+}
+
+wear::OverlapField SphereWall::overlap_field(double R, double deepest, bool of_point) const {
+  return {of_point ? points_.node_excess() : patches_.node_excess(), R,      deepest, tip_,
+          of_point ? points_.raw_excess() : patches_.raw_excess(),   centre_};
+}
+
+const std::vector<SphereWall::Spot>& SphereWall::find_spots(const Wall& wall) {
+  spots_.clear();
+  const bool as_one = wall.setup().contact == ContactRule::per_triangle && !wall.is_plane();
+  for (const Touch& touch : touches_) {
+    const double force = std::max(touch.force.F_n, 0.0);
+    if (!(force > 0.0)) continue;
+    // Two rules that share a contact press the same spot.
+    auto alike = as_one ? spots_.begin() : spots_.end();
+    if (touch.weight < 1.0)
+      alike =
+          std::ranges::find_if(spots_, [&](const Spot& s) { return dot(normalized(s.n), touch.n) > 0.9; });
+    if (alike == spots_.end())
+      alike = spots_.insert(spots_.end(), {{}, 0.0, 0.0, touch.part, touch.of_point});
+    Spot& spot = *alike;
+    spot.n += force * touch.n;
+    spot.force += force;
+    spot.deepest = std::max(spot.deepest, touch.deepest);
+  }
+  for (Spot& spot : spots_) spot.n = normalized(spot.n);
+  return spots_;
+}
+
+/// Takes the pending wear off the tip, in pieces so small that the pressure hardly changes in one. It is
+/// shared out by the pressure of this moment for all that came since the last time. Where the tip just rides
+/// on a bump, all but one piece waits for a place with more of it under load, unless an output is due.
+void SphereWall::shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair,
+                           bool due) {
+  constexpr double kBatch = 0.02, kPiece = 0.05;  // of the Hertz approach, in mean recession
+  constexpr int kMostPieces = 30;
+  const double R = tip.radius();
+  const std::vector<Spot>& all = find_spots(wall);
+  double force = 0.0, area = 0.0, batch = 0.0, left = 0.0;
+  for (const Spot& spot : all) force += spot.force;
+  if (!(force > 0.0)) return;
+  for (const Spot& spot : all) {
+    const double d_e = contact::hertz_overlap(pair, R, spot.force);
+    double volume = tip_pending_ * (spot.force / force);
+    for (int piece = 0; piece < kMostPieces && volume > 0.0; ++piece) {
+      press(tip, wall, spot, wall.setup().footprint == Footprint::overlap ? 0.0 : d_e);
+      const double part = std::min(volume, kPiece * d_e * tip.pressed_area());
+      tip.wear(part);
+      volume -= part;
+      if (!due && tip.pressed_area() < 0.5 * tip_area_) break;
+    }
+    left += volume;
+    area += tip.pressed_area();
+    batch += kBatch * d_e * tip.pressed_area();
+  }
+  tip_pending_ = left;
+  tip_area_ = std::max(area, 0.9 * tip_area_);
+  tip_batch_ = batch;
+}
+
+void SphereWall::press(wear::WearingTip& tip, const Wall& wall, const Spot& spot, double d_e) {
+  const double R = tip.radius();
+  if (wall.is_plane()) {
+    const MeshSetup& plane = wall.setup().mesh;
+    tip.press_on_plane({{{}, R, spot.deepest, tip_, {}, centre_}, tip_, d_e},
+                       dot(centre_ - plane.position, plane.normal), plane.normal, -R * spot.n);
+  } else {
+    tip.press_on(
+        candidates_,
+        {overlap_field(R, spot.deepest, spot.of_point), tip_, d_e, mask_of(wall, spot.part, spot.of_point)},
+        -R * spot.n);
+  }
+}
+
+void SphereWall::plough(Wall& wall, const wear::Ploughing& ploughing, const Displaced& displaced, double R,
+                        const contact::PairProperties& pair) {
+  unpiled_ += displaced.volume;
+  slid_ += displaced.way;
+  const std::vector<Spot>& now = find_spots(wall);
+  if (!now.empty()) {
+    ploughing_.clear();
+    for (const Spot& spot : now) {
+      const Vec3 forward = normalized(displaced.v - dot(displaced.v, spot.n) * spot.n);
+      ploughing_.push_back({{centre_, R, tip_, spot.n, forward, displaced.turning, spot.deepest,
+                             contact::hertz_overlap(pair, R, spot.force)},
+                            spot.force});
+    }
+  }
+  if (unpiled_ == 0.0 || ploughing_.empty()) return;
+  double length = ridges_.half_length(), force = 0.0;
+  for (const auto& [contact, F_n] : ploughing_) {
+    length = std::max(length, contact::contact_radius(R, contact.d_e));
+    force += F_n;
+  }
+  if (!displaced.due && !now.empty() && slid_ < displaced.spacing * length) return;
+  double left = 0.0;
+  for (auto& [contact, F_n] : ploughing_) {
+    const double share = unpiled_ * (F_n / force);
+    contact.cut = slid_ > 0.0 ? share / ((1.0 - ploughing.removed_fraction) * slid_) : 0.0;
+    left += contact.forward == Vec3{}
+                ? share
+                : ridges_.pile_up(wall.surface(), wall.view(), contact, ploughing, share);
+  }
+  unpiled_ = left;
+  slid_ = 0.0;
+}
+
+/// What fell to a node was lost by the triangles around it, each by its part of the node's area.
+void SphereWall::book_elements(Wall& wall) {
+  if (node_pending_.empty()) return;
+  for (std::size_t i = 0; i < candidates_.node_count(); ++i) node_pending_[i] /= candidates_.node_area[i];
+  for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
+    const double depths = node_pending_[at(candidates_.v0[t])] + node_pending_[at(candidates_.v1[t])] +
+                          node_pending_[at(candidates_.v2[t])];
+    if (depths > 0.0)
+      wall.surface().book_element(candidates_.triangle[t], depths * candidates_.area[t] / 3.0);
+  }
+  node_pending_.clear();
+}
+
+}  // namespace abradem::simulation
