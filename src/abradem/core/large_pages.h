@@ -10,8 +10,7 @@
 namespace abradem::core {
 
 /// Allocator of arrays that a step runs through. Where they are large it asks for large pages: small ones are
-/// more than a processor can keep the addresses of, and looking these up cost a tenth of a step with 100,000
-/// spheres (bench/README.md). A machine that has none to give gives small ones.
+/// more than a processor can keep the addresses of. A machine that has none to give gives small ones.
 template <typename T>
 struct LargePages {
   using value_type = T;

@@ -191,10 +191,10 @@ void Bulk::find_contacts(const Surroundings& around, const Particles& named, std
   walls_.find(spheres_, around, travelled_ + walls_.fastest_wall() * wall_time_);
 }
 
-/// Within which pairs are looked at in every step [m]. A wide margin lasts long and holds many that do not
-/// touch. To find the near pairs costs about 50 ns a sphere and lasts margin / (2 way) steps; those that do
-/// not touch cost about 20 ns margin / skin in every step. The sum is least at this margin; where it comes
-/// near the skin, the list itself lasts no longer and all of it is taken.
+/// Within which pairs are looked at in every step [m]. Finding them costs C and lasts margin / (2 way) steps;
+/// those that do not touch cost c margin / skin in every step. The sum is least at √(2 C/c way skin), and
+/// C/c = 2.5 is an estimate: near the least the sum is flat. Where that comes near the skin, the list itself
+/// lasts no longer and all of it is taken.
 double Bulk::margin(double dt) {
   const double way = std::sqrt(met_.fastest2) * dt, best = std::sqrt(5.0 * way * skin_);
   margin_ = table_.adhesion || best > 0.5 * skin_ ? skin_ : best;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -39,18 +40,10 @@ class SparseBins {
   };
   Sums& operator[](std::uint64_t key) {
     if (last_ < entries_.size() && entries_[last_].key == key) return entries_[last_].sums;
-    std::size_t low = 0, high = entries_.size();
-    while (low < high) {
-      const std::size_t middle = (low + high) / 2;
-      if (entries_[middle].key < key)
-        low = middle + 1;
-      else
-        high = middle;
-    }
-    if (low == entries_.size() || entries_[low].key != key)
-      entries_.insert(entries_.begin() + static_cast<std::ptrdiff_t>(low), Entry{key, {}});
-    last_ = low;
-    return entries_[low].sums;
+    auto place = std::ranges::lower_bound(entries_, key, {}, &Entry::key);
+    if (place == entries_.end() || place->key != key) place = entries_.insert(place, Entry{key, {}});
+    last_ = static_cast<std::size_t>(place - entries_.begin());
+    return place->sums;
   }
   /// In the order of the keys.
   [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }

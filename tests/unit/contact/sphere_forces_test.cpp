@@ -198,6 +198,48 @@ TEST(SphereForces, WithOptionsActOnBothAndDoNotDependOnThreadsOrOrder) {
   omp_set_num_threads(before);
 }
 
+/// Whether forces are found first or on the way, with how many threads, and whichever pairs that do not touch
+/// are looked at besides.
+TEST(SphereForces, AndMotionInOnePassAreThoseInTwo) {
+  const PairTable table = table_of(two_materials(0.02));
+  const Vec3 gravity{0.0, 0.0, -9.81};
+  Spheres expected = crowd(4000, 3);
+  SphereList whole;
+  LoadRows load;
+  for (int step = 0; step < 20; ++step) {
+    if (step % 7 == 0) whole.rebuild(expected, kSkin);
+    ASSERT_TRUE(sphere_forces(expected, whole, table, kDt, load));
+    advance_spheres(expected.row, load, gravity, kDt);
+  }
+  const int before = omp_get_max_threads();
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    Spheres spheres = crowd(4000, 3);
+    SphereList list;
+    std::size_t fewest = whole.pairs();
+    for (int step = 0; step < 20; ++step) {
+      constexpr double kMargin = 1e-5;  // spheres move by less than half of it in a step
+      if (step % 7 == 0)
+        list.rebuild(spheres, kSkin, kMargin);
+      else
+        list.find_near(spheres, kMargin);
+      std::size_t near = 0;
+      list.for_each_near([&](const ContactBlock&, std::size_t) { ++near; });
+      fewest = std::min(fewest, near);
+      EXPECT_TRUE(forces_and_advance(spheres, list, table, kDt, load, gravity, [](auto, auto) {}).sound);
+    }
+    EXPECT_GT(fewest, 1000u);
+    EXPECT_LT(fewest, whole.pairs() / 2);
+    ASSERT_EQ(spheres.id, expected.id);
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      ASSERT_EQ(spheres.row[i].position(), expected.row[i].position()) << threads << " threads, sphere " << i;
+      ASSERT_EQ(spheres.row[i].velocity(), expected.row[i].velocity()) << threads << " threads, sphere " << i;
+      ASSERT_EQ(spheres.row[i].spin(), expected.row[i].spin()) << threads << " threads, sphere " << i;
+    }
+  }
+  omp_set_num_threads(before);
+}
+
 TEST(SphereForces, AreTheSameBitsForAnyNumberOfThreads) {
   const PairTable table = table_of(two_materials(0.02));
   LoadRows first;
