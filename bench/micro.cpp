@@ -86,7 +86,7 @@ void hertz_footprint(benchmark::State& state) {
   Scene scene(size_of(state));
   contact::PatchEvaluator patches;
   const auto found = patches.evaluate(scene.candidates, scene.c, kRadius, scene.pair);
-  const wear::OverlapField field{patches.node_excess(), kRadius, found.front().deepest};
+  const wear::OverlapField field{patches.node_excess(), kRadius, found.front().deepest, {}, {}, scene.c};
   wear::FootprintIntegrator footprint;
   for (auto _ : state)
     benchmark::DoNotOptimize(footprint.hertz(scene.candidates, field, scene.overlap, false).total);

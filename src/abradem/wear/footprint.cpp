@@ -7,6 +7,7 @@
 #include "abradem/contact/overlap_series.h"
 #include "abradem/contact/triangle_excess.h"
 #include "abradem/core/simd.h"
+#include "abradem/wear/radial_integrals.h"
 
 namespace abradem::wear {
 
@@ -24,11 +25,13 @@ struct HertzWeight {
     const double w2 = base + twice_R * g;
     return std::sqrt(w2 > 0.0 ? w2 : 0.0);
   }
+  [[nodiscard]] HertzBall ball(double R) const { return {0.5 * base + R}; }
 };
 
 struct OverlapWeight {
   ABRADEM_INLINE double operator()(double e) const { return of_depth(depth(e)); }
   ABRADEM_INLINE double of_depth(double g) const { return g > 0.0 ? g : 0.0; }
+  [[nodiscard]] OverlapBall ball(double R) const { return {R}; }
 };
 
 /// depth() of a shallow excess (nodes count only there) without root or quotient; negative wherever e is.
@@ -157,12 +160,15 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
   // Compared as it is: a spot of no size asks for infinitely many, a state that is not a number for none.
   const double wanted = 2.0 * kEdgesPerReach / edges;
   const int parts = wanted < kFinest ? std::max(static_cast<int>(std::ceil(wanted)), 2) : kFinest;
-  choose_points(parts);
+  if (worn) choose_points(parts);
   const auto masked_out = [&](std::size_t t) { return !mask.empty() && mask[t] == 0; };
   shares_.total = 0.0;
   for (std::size_t t = 0; t < n; ++t) {
     if (bound(candidates, field, t) <= cut || masked_out(t)) continue;
-    subdivide(candidates, field, t, weight);
+    if (worn)
+      subdivide(candidates, field, t, weight);
+    else
+      integrate_exactly(candidates, field, t, weight);
     shares_.total += (at0_[t] + at1_[t]) + at2_[t];
   }
   if (!(shares_.total > 0.0) && n > 0) {
@@ -215,6 +221,20 @@ void FootprintIntegrator::choose_points(int parts) {
   while (points_.share.size() % MeshCandidates::kLanes != 0) add(third, third, 0.0);
   points_.e.resize(points_.share.size());
   points_.w.resize(points_.share.size());
+}
+
+/// The sphere is as new: a weight of the distance from its centre.
+template <typename Weight>
+void FootprintIntegrator::integrate_exactly(const MeshCandidates& candidates, const OverlapField& field,
+                                            std::size_t t, const Weight& weight) {
+  const auto corner = [&](std::int32_t v) {
+    return candidates.node_position(static_cast<std::size_t>(v)) - field.c;
+  };
+  const CornerIntegrals part = integrate_over_triangle(weight.ball(field.R), corner(candidates.v0[t]),
+                                                       corner(candidates.v1[t]), corner(candidates.v2[t]));
+  at0_[t] = part.at0;
+  at1_[t] = part.at1;
+  at2_[t] = part.at2;
 }
 
 /// Centroid rule on equal parts of triangle t.

@@ -30,11 +30,10 @@ struct OverlapField {
   std::span<const double> excess;  ///< 1 - |x - c|^2 / R^2 of each candidate node, padded
   double R = 0.0;                  ///< [m]
   double deepest = 0.0;            ///< largest overlap g in the patch [m]
-  /// A worn tip: `excess` is its own, `raw` that of the sphere as new (empty: it is as new), c the sphere's
-  /// centre.
+  /// A worn tip: `excess` is its own, `raw` that of the sphere as new (empty: it is as new).
   contact::Tip tip{};
   std::span<const double> raw{};
-  Vec3 c{};
+  Vec3 c{};  ///< the sphere's centre [m]
 };
 
 /// Distributes wear by a pressure that depends on the local overlap g alone. docs/theory/wear.md#footprint
@@ -57,6 +56,9 @@ class FootprintIntegrator {
                                    const Weight& weight);
   [[nodiscard]] static double bound(const contact::MeshCandidates& candidates, const OverlapField& field,
                                     std::size_t t) noexcept;
+  template <typename Weight>
+  void integrate_exactly(const contact::MeshCandidates& candidates, const OverlapField& field, std::size_t t,
+                         const Weight& weight);
   template <typename Weight>
   void subdivide(const contact::MeshCandidates& candidates, const OverlapField& field, std::size_t t,
                  const Weight& weight);

@@ -34,7 +34,7 @@ struct Pressed {
     const auto found = patches.evaluate(scene.candidates_at(c, 1.02 * R), c, R, kPair);
     deepest = found.front().deepest;
   }
-  [[nodiscard]] OverlapField field() const { return {patches.node_excess(), R, deepest}; }
+  [[nodiscard]] OverlapField field() const { return {patches.node_excess(), R, deepest, {}, {}, c}; }
   /// From the loads of nodes, or the parts at the vertices of triangles; related to the total.
   [[nodiscard]] Moments moments(const FootprintShares& s) const {
     const contact::MeshCandidates& m = scene.candidates;
