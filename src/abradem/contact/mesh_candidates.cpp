@@ -142,6 +142,13 @@ bool MeshCandidates::stale(const SurfaceView& surface, const Vec3& c, double rea
          across2 > built_skin_.tangential * built_skin_.tangential;
 }
 
+double MeshCandidates::skin_left(const Vec3& c) const noexcept {
+  const Vec3 moved = c - built_at_;
+  const double along = dot(moved, built_axis_), wear = odometer_ - odometer_at_gather_;
+  const double across = norm(beside(built_skin_.slide, moved - along * built_axis_));
+  return std::min(built_skin_.normal - std::abs(along) - wear, built_skin_.tangential - across);
+}
+
 void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
                             const CandidateSkin& skin) {
   if (stale(surface, c, reach)) {

@@ -41,6 +41,9 @@ class MeshCandidates {
   /// Would an update gather anew (the sphere has left the skin), rather than fetch moved vertices?
   [[nodiscard]] bool stale(const SurfaceView& surface, const Vec3& c, double reach) const noexcept;
 
+  /// How far a sphere at c that is not stale, and the surface, may still move in any direction [m].
+  [[nodiscard]] double skin_left(const Vec3& c) const noexcept;
+
   /// Brings the candidates up to date for a sphere at c: gathers anew when stale, else fetches moved
   /// vertices.
   /// @param axis unit vector from c towards the surface (the last contact's), or zero: unknown

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "abradem/contact/triangle_links.h"
@@ -71,15 +72,9 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
                                  bool sheet) {
   travel(candidates, c, R);
   touched_.clear();
-  excess_.assign(candidates.x.size(), -1.0);
-  const double inverse = 1.0 / (R * R);
-  for (std::size_t i = 0; i < candidates.node_count(); ++i)
-    excess_[i] = 1.0 - norm2(candidates.node_position(i) - c) * inverse;
+  excess_known_ = false;
   for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
     if (wake_[t] > way_) continue;
-    const double highest = std::max(
-        {excess_[at(candidates.v0[t])], excess_[at(candidates.v1[t])], excess_[at(candidates.v2[t])]});
-    if (highest + candidates.longest[t] * inverse / 3.0 <= 0.0) continue;  // nowhere inside the ball
     const auto closest = geometry::closest_point_on_triangle(
         c, candidates.node_position(at(candidates.v0[t])), candidates.node_position(at(candidates.v1[t])),
         candidates.node_position(at(candidates.v2[t])));
@@ -96,10 +91,31 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
     const Vec3 n = tip.worn() ? tip.inward_normal(-offset) : offset / distance;
     touched_.push_back({closest.point, n, overlap, closest.feature, local, local});
   }
+  raw_.clear();
   if (tip.worn()) {
+    find_excess(candidates);
     raw_ = excess_;
     correction_.apply(candidates, c, R, tip, raw_, excess_);
   }
+}
+
+void PointContactFinder::find_excess(const MeshCandidates& candidates) {
+  excess_.assign(candidates.x.size(), -1.0);
+  const double inverse = 1.0 / (radius_ * radius_);
+  for (std::size_t i = 0; i < candidates.node_count(); ++i)
+    excess_[i] = 1.0 - norm2(candidates.node_position(i) - last_) * inverse;
+  excess_known_ = true;
+}
+
+std::span<const double> PointContactFinder::node_excess(const MeshCandidates& candidates) {
+  if (!excess_known_) find_excess(candidates);
+  return excess_;
+}
+
+double PointContactFinder::clearance() const noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double wake : wake_) least = std::min(least, wake);
+  return least - way_;
 }
 
 std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates,
@@ -129,7 +145,8 @@ std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates&
   collect(candidates, c, R, tip, sheet);
   find_flat_sets(candidates);
   // Each set's deepest point, strongest sets first.
-  std::vector<PointContact> best;
+  std::vector<PointContact>& best = best_;
+  best.clear();
   for (PointContact& p : touched_) {
     p.set = set_[at(p.triangle)];
     const auto same = std::ranges::find(best, p.set, &PointContact::set);
@@ -157,8 +174,9 @@ std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates&
 void PointContactFinder::find_flat_sets(const MeshCandidates& candidates) {
   constexpr double kCosFlat = 0.99619469809174555;  // 5 degrees
   set_.assign(candidates.triangle_count(), -1);
-  TriangleLinks links(candidates.triangle_count());
   for (const PointContact& p : touched_) set_[at(p.triangle)] = p.triangle;
+  if (touched_.size() < 2) return;
+  TriangleLinks links(candidates.triangle_count());
   for (std::size_t i = 0; i < touched_.size(); ++i)
     for (std::size_t j = i + 1; j < touched_.size(); ++j) {
       const auto s = touched_[i].triangle, t = touched_[j].triangle;

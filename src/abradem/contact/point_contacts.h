@@ -36,11 +36,17 @@ class PointContactFinder {
   std::span<const PointContact> resolved(const MeshCandidates& candidates, const Vec3& c, double R,
                                          const Tip& tip = {}, bool sheet = false);
 
-  /// 1 - |x - c|^2 / R^2 of each candidate node, from the last call, padded; > 0 inside. With a worn tip:
-  /// the excess that has the overlap with it.
-  [[nodiscard]] std::span<const double> node_excess() const noexcept { return excess_; }
+  /// 1 - |x - c|^2 / R^2 of each candidate node at the last call, padded; > 0 inside. With a worn tip: the
+  /// excess that has the overlap with it.   @param candidates those of that call
+  [[nodiscard]] std::span<const double> node_excess(const MeshCandidates& candidates);
   /// The same of the sphere as new; of a worn tip only.
   [[nodiscard]] std::span<const double> raw_excess() const noexcept { return raw_; }
+
+  /// Every triangle that the ball cut in the last call, each by its nearest point.
+  [[nodiscard]] std::span<const PointContact> touched() const noexcept { return touched_; }
+  /// After a call that found nothing: how far the sphere and the surface must come before the ball reaches any
+  /// of the candidates [m].
+  [[nodiscard]] double clearance() const noexcept;
 
   /// `resolved`: set of each candidate triangle, or -1 where it is not overlapped.
   [[nodiscard]] std::span<const int> sets() const noexcept { return set_; }
@@ -48,12 +54,14 @@ class PointContactFinder {
  private:
   void collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip, bool sheet);
   void travel(const MeshCandidates& candidates, const Vec3& c, double R);
+  void find_excess(const MeshCandidates& candidates);
   void find_flat_sets(const MeshCandidates& candidates);
 
   std::vector<PointContact> touched_;  // nearest point of every triangle that the ball cuts
-  std::vector<PointContact> accepted_;
+  std::vector<PointContact> accepted_, best_;
   std::vector<int> set_;
   std::vector<double> excess_, raw_;
+  bool excess_known_ = false;
   TipCorrection correction_;
   // Triangles out of reach: how far the sphere and the surface must have come before each can be touched.
   std::vector<double> wake_;  // [m]

@@ -188,7 +188,7 @@ void Bulk::find_contacts(const Surroundings& around, const Particles& named, std
     list_.find_near(spheres_, margin(around.dt));
     near_at_ = travelled_;
   }
-  walls_.find(spheres_, around, travelled_ + walls_.fastest_wall() * wall_time_);
+  walls_.prepare(spheres_, around, travelled_ + walls_.fastest_wall() * wall_time_);
 }
 
 /// Within which pairs are looked at in every step [m]. Finding them costs C and lasts margin / (2 way) steps;

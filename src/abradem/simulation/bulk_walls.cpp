@@ -157,12 +157,11 @@ void BulkWalls::list_meshes(const contact::Spheres& spheres, const Surroundings&
   }
 }
 
-void BulkWalls::find(const contact::Spheres& spheres, const Surroundings& around, double travelled) {
-  const auto active = [&](const NearMesh& m) {
-    return m.clear <= travelled + around.walls[at(m.wall)].surface().odometer() - odometer_[at(m.wall)];
-  };
+void BulkWalls::prepare(const contact::Spheres& spheres, const Surroundings& around, double travelled) {
   for (NearMesh& m : meshes_) {
-    if (!active(m)) continue;
+    m.come = travelled + around.walls[at(m.wall)].surface().odometer() - odometer_[at(m.wall)];
+    m.awake = m.clear <= m.come;
+    if (!m.awake) continue;
     const contact::SphereRow& s = spheres.row[at(m.sphere)];
     const geometry::Pose& pose = around.poses[at(m.wall)];
     Wall& wall = around.walls[at(m.wall)];
@@ -171,17 +170,6 @@ void BulkWalls::find(const contact::Spheres& spheres, const Surroundings& around
     m.contact->prepare(wall, pose.to_body(s.position()), v, s.radius,
                        around.pair(static_cast<int>(s.material), wall.material()), m.expected, around.dt);
   }
-  core::parallel_for(
-      meshes_.size(),
-      [&](std::size_t k) {
-        const NearMesh& m = meshes_[k];
-        if (!active(m)) return;
-        const contact::SphereRow& s = spheres.row[at(m.sphere)];
-        const Wall& wall = around.walls[at(m.wall)];
-        m.contact->find(wall, around.poses[at(m.wall)].to_body(s.position()), s.radius,
-                        around.pair(static_cast<int>(s.material), wall.material()));
-      },
-      kWorthSharing);
 }
 
 bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& around) {
@@ -198,12 +186,16 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
       meshes_.size(),
       [&](std::size_t k) {
         NearMesh& m = meshes_[k];
-        if (m.contact->touches().empty() && m.load.stiffening == 0.0 && m.load.force() == Vec3{}) return;
+        if (!m.awake) return;
         const contact::SphereRow& s = spheres.row[at(m.sphere)];
         const Wall& wall = around.walls[at(m.wall)];
+        const geometry::Pose& pose = around.poses[at(m.wall)];
         const material::PairProperties& pair = around.pair(static_cast<int>(s.material), wall.material());
+        m.contact->find(wall, pose.to_body(s.position()), s.radius, pair);
+        m.clear = std::max(m.clear, m.come + m.contact->clearance(wall));
+        if (m.contact->touches().empty() && m.load.stiffening == 0.0 && m.load.force() == Vec3{}) return;
         const SphereState sphere = state_of(s);
-        const ForceAndTorque f = m.contact->compute(wall, around.poses[at(m.wall)], sphere, pair, around.dt);
+        const ForceAndTorque f = m.contact->compute(wall, pose, sphere, pair, around.dt);
         m.load = {f.force.x, f.force.y, f.force.z, 0.0, f.torque.x, f.torque.y, f.torque.z, 0.0};
         for (const SphereWall::Touch& t : m.contact->touches()) {
           const double S = contact::step_stiffness(pair, t.a);

@@ -22,6 +22,8 @@ class BulkWalls {
     std::int32_t sphere = 0;  ///< index in the order now
     std::int32_t id = 0, wall = 0;
     double clear = 0.0;     ///< it cannot touch before it and the wall have moved so far [m]
+    double come = 0.0;      ///< how far they have, since the rebuild [m]
+    bool awake = true;      ///< it might touch, in this step
     double expected = 0.0;  ///< largest force met [N]
     std::unique_ptr<SphereWall> contact;
     contact::LoadRow load;  ///< on the sphere, world frame
@@ -42,9 +44,11 @@ class BulkWalls {
   /// What a contact that is no longer near still owes its wall is settled.
   void rebuild(const contact::Spheres& spheres, const Surroundings& around, double skin, int first_id,
                std::vector<double>& paper);
+  /// First part of the search, in the order of spheres: who might touch; what their last candidates still owe
+  /// the walls.
   /// @param travelled how far any sphere and any wall may have moved against each other since the rebuild [m]
-  void find(const contact::Spheres& spheres, const Surroundings& around, double travelled);
-  /// The walls' forces. @return false when a sphere is too deep in a wall
+  void prepare(const contact::Spheres& spheres, const Surroundings& around, double travelled);
+  /// Finds the contacts, and the walls' forces. @return false when a sphere is too deep in a wall
   [[nodiscard]] bool compute(const contact::Spheres& spheres, const Surroundings& around);
   /// Adds them to the loads of spheres begin … end - 1.
   void add_loads(std::size_t begin, std::size_t end, contact::LoadRows& load) const;

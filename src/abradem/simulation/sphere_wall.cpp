@@ -82,6 +82,12 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
   if (!touches_.empty()) axis_ = -touches_.front().n;
 }
 
+double SphereWall::clearance(const Wall& wall) const noexcept {
+  if (wall.is_plane() || wall.setup().contact == ContactRule::patch || !touches_.empty() || !memory_.empty())
+    return 0.0;
+  return std::min(points_.clearance(), candidates_.skin_left(centre_));
+}
+
 void SphereWall::touch_patches(double R, std::span<const contact::Patch> patches) {
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const contact::Patch& p = patches[i];
@@ -155,22 +161,20 @@ void SphereWall::touch_either(const Wall& wall, const Vec3& c, double R, const c
   for (Touch& t : touches_) t.elastic_force *= t.weight;
 }
 
-/// Do point contacts stand for the whole, so that the patches need not be asked? Where all triangles near the
+/// Do point contacts stand for the whole, so that the patches need not be asked? Where all triangles in the
 /// ball are coarse; and on one plane, where the two rules are equal, unless all are fine.
 bool SphereWall::suit_points(std::span<const contact::PointContact> points, double R) const noexcept {
   constexpr double kPlane2 = 1e-12;  // sine squared
   if (points.empty()) return false;
   double deepest = 0.0;
   for (const contact::PointContact& p : points) deepest = std::max(deepest, p.overlap);
-  const double a = contact::contact_radius(R, deepest), inverse = 1.0 / (R * R);
+  const double a = contact::contact_radius(R, deepest);
   const contact::MeshCandidates& m = candidates_;
-  const std::span<const double> excess = points_.node_excess();
   const auto normal = [&m](std::size_t t) { return Vec3{m.ax[t], m.ay[t], m.az[t]}; };
-  const auto first = static_cast<std::size_t>(points.front().triangle);
+  const auto first = at(points.front().triangle);
   bool coarse = true, fine = true, plane = points.size() == 1;
-  for (std::size_t t = 0; t < m.triangle_count(); ++t) {
-    const double highest = std::max({excess[at(m.v0[t])], excess[at(m.v1[t])], excess[at(m.v2[t])]});
-    if (highest + m.longest[t] * inverse / 3.0 <= 0.0) continue;  // nowhere inside the ball
+  for (const contact::PointContact& p : points_.touched()) {
+    const std::size_t t = at(p.triangle);
     const double share = contact::fineness(a, contact::width_of(m, t));
     coarse = coarse && share == 0.0;
     fine = fine && share == 1.0;

@@ -92,6 +92,9 @@ class SphereWall {
   /// run at once.
   void find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
 
+  /// After a find without contacts: how far sphere and surface must come before there can be one [m].
+  [[nodiscard]] double clearance(const Wall& wall) const noexcept;
+
   /// The wall is gone: no contacts, and none remembered.
   void let_go() noexcept {
     touches_.clear();
@@ -269,7 +272,7 @@ class SphereWall {
   };
   const std::vector<Spot>& find_spots(const Wall& wall);
   [[nodiscard]] std::span<const char> mask_of(const Wall& wall, int part, bool of_point);
-  [[nodiscard]] wear::OverlapField overlap_field(double R, double deepest, bool of_point) const;
+  [[nodiscard]] wear::OverlapField overlap_field(double R, double deepest, bool of_point);
   void shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair, bool due);
   void press(wear::WearingTip& tip, const Wall& wall, const Spot& spot, double d_e);
   /// How a contact's wear falls: all of it in one candidate triangle, with these parts at its corners; or by

@@ -110,8 +110,8 @@ std::span<const char> SphereWall::mask_of(const Wall& wall, int part, bool of_po
   return mask_;
 }
 
-wear::OverlapField SphereWall::overlap_field(double R, double deepest, bool of_point) const {
-  return {of_point ? points_.node_excess() : patches_.node_excess(), R,      deepest, tip_,
+wear::OverlapField SphereWall::overlap_field(double R, double deepest, bool of_point) {
+  return {of_point ? points_.node_excess(candidates_) : patches_.node_excess(), R,      deepest, tip_,
           of_point ? points_.raw_excess() : patches_.raw_excess(),   centre_};
 }
 

@@ -49,6 +49,7 @@ void Simulation::accumulate_wear() {
     const contact::SphereRow& s = bulk_->spheres().row[static_cast<std::size_t>(m.sphere)];
     const auto w = static_cast<std::size_t>(m.wall);
     const auto material = static_cast<int>(s.material);
+    if (!m.awake && !ploughs()) continue;
     if (m.contact->touches().empty() && m.contact->unpiled_volume() == 0.0) continue;
     const MapLayer map = map_layer(w, material);
     if (by_laws_[w] != 0 || map.layer != nullptr) {
