@@ -13,7 +13,7 @@ namespace {
 
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
-constexpr std::size_t kWorthSharing = 256;  // spheres near meshes
+constexpr std::size_t kPart = 16, kWorthSharing = 16;  // spheres near meshes, parts of them
 
 contact::MovingPlane plane_of(const Wall& wall, const geometry::Pose& pose) {
   contact::MovingPlane plane{wall.setup().mesh.position, wall.setup().mesh.normal, pose};
@@ -161,15 +161,17 @@ void BulkWalls::prepare(const contact::Spheres& spheres, const Surroundings& aro
   for (NearMesh& m : meshes_) {
     m.come = travelled + around.walls[at(m.wall)].surface().odometer() - odometer_[at(m.wall)];
     m.awake = m.clear <= m.come;
-    if (!m.awake) continue;
-    const contact::SphereRow& s = spheres.row[at(m.sphere)];
-    const geometry::Pose& pose = around.poses[at(m.wall)];
-    Wall& wall = around.walls[at(m.wall)];
-    m.expected = std::max({m.expected, norm(m.load.force()), norm(around.gravity) / s.inverse_mass});
-    const Vec3 v = pose.turn_back(s.velocity() - pose.velocity_at(s.position()));
-    m.contact->prepare(wall, pose.to_body(s.position()), v, s.radius,
-                       around.pair(static_cast<int>(s.material), wall.material()), m.expected, around.dt);
+    if (m.awake && m.owes) prepare(m, spheres.row[at(m.sphere)], around);
   }
+}
+
+void BulkWalls::prepare(NearMesh& m, const contact::SphereRow& s, const Surroundings& around) {
+  const geometry::Pose& pose = around.poses[at(m.wall)];
+  Wall& wall = around.walls[at(m.wall)];
+  m.expected = std::max({m.expected, norm(m.load.force()), norm(around.gravity) / s.inverse_mass});
+  const Vec3 v = pose.turn_back(s.velocity() - pose.velocity_at(s.position()));
+  m.contact->prepare(wall, pose.to_body(s.position()), v, s.radius,
+                     around.pair(static_cast<int>(s.material), wall.material()), m.expected, around.dt);
 }
 
 bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& around) {
@@ -181,31 +183,54 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
                                   options_, around.dt) &&
             sound;
   }
-  std::vector<std::uint8_t> deep(meshes_.size(), 0);
+  const std::size_t parts = (meshes_.size() + kPart - 1) / kPart;
+  std::vector<std::uint8_t> deep(parts, 0);
+  wear_.resize(parts);
   core::parallel_for(
-      meshes_.size(),
-      [&](std::size_t k) {
-        NearMesh& m = meshes_[k];
-        if (!m.awake) return;
-        const contact::SphereRow& s = spheres.row[at(m.sphere)];
-        const Wall& wall = around.walls[at(m.wall)];
-        const geometry::Pose& pose = around.poses[at(m.wall)];
-        const material::PairProperties& pair = around.pair(static_cast<int>(s.material), wall.material());
-        m.contact->find(wall, pose.to_body(s.position()), s.radius, pair);
-        m.clear = std::max(m.clear, m.come + m.contact->clearance(wall));
-        if (m.contact->touches().empty() && m.load.stiffening == 0.0 && m.load.force() == Vec3{}) return;
-        const SphereState sphere = state_of(s);
-        const ForceAndTorque f = m.contact->compute(wall, pose, sphere, pair, around.dt);
-        m.load = {f.force.x, f.force.y, f.force.z, 0.0, f.torque.x, f.torque.y, f.torque.z, 0.0};
-        for (const SphereWall::Touch& t : m.contact->touches()) {
-          const double S = contact::step_stiffness(pair, t.a);
-          const double D = contact::step_damping(pair, S, sphere.mass);
-          m.load.stiffening += t.weight * (2.0 * D + S * around.dt) * around.dt;
-          deep[k] = deep[k] != 0 || t.overlap > 0.5 * contact::kDeepest * s.radius;
-        }
+      parts,
+      [&](std::size_t part) {
+        wear_[part].clear();
+        for (std::size_t k = kPart * part; k < std::min(meshes_.size(), kPart * (part + 1)); ++k)
+          if (meshes_[k].awake && compute(k, spheres.row[at(meshes_[k].sphere)], around, wear_[part]))
+            deep[part] = 1;
       },
       kWorthSharing);
   return sound && std::ranges::none_of(deep, [](std::uint8_t d) { return d != 0; });
+}
+
+/// One sphere beside one mesh. @return whether it is too deep in it
+bool BulkWalls::compute(std::size_t k, const contact::SphereRow& s, const Surroundings& around,
+                        WearRecords& records) {
+  NearMesh& m = meshes_[k];
+  if (!m.owes) prepare(m, s, around);
+  const Wall& wall = around.walls[at(m.wall)];
+  const geometry::Pose& pose = around.poses[at(m.wall)];
+  const material::PairProperties& pair = around.pair(static_cast<int>(s.material), wall.material());
+  m.contact->find(wall, pose.to_body(s.position()), s.radius, pair);
+  m.clear = std::max(m.clear, m.come + m.contact->clearance(wall));
+  if (m.contact->touches().empty() && m.load.stiffening == 0.0 && m.load.force() == Vec3{}) return false;
+  const SphereState sphere = state_of(s);
+  const ForceAndTorque f = m.contact->compute(wall, pose, sphere, pair, around.dt);
+  m.load = {f.force.x, f.force.y, f.force.z, 0.0, f.torque.x, f.torque.y, f.torque.z, 0.0};
+  bool deep = false;
+  for (const SphereWall::Touch& t : m.contact->touches()) {
+    const double S = contact::step_stiffness(pair, t.a);
+    const double D = contact::step_damping(pair, S, sphere.mass);
+    m.load.stiffening += t.weight * (2.0 * D + S * around.dt) * around.dt;
+    deep = deep || t.overlap > 0.5 * contact::kDeepest * s.radius;
+  }
+  const auto material = static_cast<std::size_t>(s.material);
+  const WearUse use = around.wear[at(m.wall) * around.materials + material];
+  if (use != WearUse::none)
+    m.contact->record_wear(wall, sphere, pair,
+                           {.dt = around.dt,
+                            .by_speed = wall.wears_by_speed(),
+                            .sliding_only = use == WearUse::sliding,
+                            .contact = static_cast<std::int32_t>(k),
+                            .wall = m.wall,
+                            .material = static_cast<std::int32_t>(material)},
+                           records);
+  return deep;
 }
 
 void BulkWalls::add_loads(std::size_t begin, std::size_t end, contact::LoadRows& load) const {

@@ -24,6 +24,7 @@ class BulkWalls {
     double clear = 0.0;     ///< it cannot touch before it and the wall have moved so far [m]
     double come = 0.0;      ///< how far they have, since the rebuild [m]
     bool awake = true;      ///< it might touch, in this step
+    bool owes = false;      ///< its contact owes the wall elements
     double expected = 0.0;  ///< largest force met [N]
     std::unique_ptr<SphereWall> contact;
     contact::LoadRow load;  ///< on the sphere, world frame
@@ -34,6 +35,7 @@ class BulkWalls {
       archive("expected", self.expected)("load", self.load);
       if constexpr (Archive::kLoading) self.contact = std::make_unique<SphereWall>();
       archive("contact", *self.contact);
+      if constexpr (Archive::kLoading) self.owes = self.contact->owes_elements();
     }
   };
 
@@ -48,7 +50,8 @@ class BulkWalls {
   /// the walls.
   /// @param travelled how far any sphere and any wall may have moved against each other since the rebuild [m]
   void prepare(const contact::Spheres& spheres, const Surroundings& around, double travelled);
-  /// Finds the contacts, and the walls' forces. @return false when a sphere is too deep in a wall
+  /// Finds the contacts, the walls' forces, and what they do to the walls. @return false when a sphere is too
+  /// deep in a wall
   [[nodiscard]] bool compute(const contact::Spheres& spheres, const Surroundings& around);
   /// Adds them to the loads of spheres begin … end - 1.
   void add_loads(std::size_t begin, std::size_t end, contact::LoadRows& load) const;
@@ -57,6 +60,8 @@ class BulkWalls {
   [[nodiscard]] const std::vector<NearMesh>& meshes() const noexcept { return meshes_; }
   /// Of each wall; empty where it is a mesh.
   [[nodiscard]] const std::vector<contact::PlaneList>& planes() const noexcept { return planes_; }
+  /// What the contacts with meshes did to them in the last step, in the order of meshes(), which they name.
+  [[nodiscard]] const std::vector<WearRecords>& wear() const noexcept { return wear_; }
   /// Sum of the contact forces on a wall at the last step [N].
   [[nodiscard]] Vec3 force_on(std::size_t wall) const noexcept;
   /// Ploughed aside by spheres that are gone since, where the wall had no place for it [m^3].
@@ -78,6 +83,8 @@ class BulkWalls {
   [[nodiscard]] bool restore(const contact::Spheres& spheres, const Surroundings& around);
 
  private:
+  static void prepare(NearMesh& m, const contact::SphereRow& s, const Surroundings& around);
+  bool compute(std::size_t k, const contact::SphereRow& s, const Surroundings& around, WearRecords& records);
   void find_constants(const Surroundings& around);
   void list_meshes(const contact::Spheres& spheres, const Surroundings& around, double skin, int first_id,
                    std::vector<double>& paper);
@@ -85,6 +92,7 @@ class BulkWalls {
   std::vector<contact::PlaneList> planes_;
   std::vector<NearGrid> grids_;                    // of each mesh wall
   std::vector<NearMesh> meshes_;                   // by sphere, then wall
+  std::vector<WearRecords> wear_;                  // of kPart of them after another
   std::vector<double> odometer_;                   // of each wall's wear at the rebuild [m]
   std::vector<double> unplaced_;                   // on each wall, ploughed by contacts that are gone [m^3]
   std::vector<contact::PairConstants> constants_;  // walls x materials

@@ -82,6 +82,7 @@ Simulation::Simulation(Setup setup, const MeshSource& source) : setup_(std::move
   check_ploughing();
   choose_accounts();
   choose_maps();
+  find_uses_of_wear();
   add_particles();
   add_tips();
   sphere_walls_.resize(particles_.size() * walls_.size());
@@ -467,7 +468,7 @@ void Simulation::find_contacts() {
 }
 
 Surroundings Simulation::surroundings() noexcept {
-  return {walls_, poses_, pairs_, materials_.size(), dt_, time(), setup_.run.gravity};
+  return {walls_, poses_, pairs_, materials_.size(), dt_, time(), setup_.run.gravity, wear_use_};
 }
 
 void Simulation::compute_forces() {

@@ -234,7 +234,11 @@ class Simulation {
   void record();
 
   void find_equilibrium(std::size_t p);
-  [[nodiscard]] double slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept;
+  [[nodiscard]] double slip_of(const SphereWall::Touch& touch, const Wall& wall) const noexcept;
+  [[nodiscard]] bool wears_by_speed(const Wall& wall) const noexcept;
+  void accumulate_bulk_wear();
+  double book_wear(SphereWall& contact, const WearRecords& records, const WearRecords::Record& record);
+  void find_uses_of_wear();
   void book_elements();
   void limit_energies();
   void limit_bulk_energy(Vec3 low, Vec3 high, bool bounded);
@@ -261,6 +265,8 @@ class Simulation {
   std::vector<double> law_, paper_;                    // per wall [m^3]
   std::vector<double> displaced_;                      // per wall, ploughed aside [m^3]
   std::vector<char> by_laws_;                          // per wall: it wears by others than Archard's
+  std::vector<WearUse> wear_use_;                      // walls x materials
+  WearRecords records_;                                // scratch: of one named particle on one wall
   std::vector<WearAccount> account_;                   // per wall, where it does
   std::vector<std::optional<wear::WearMap>> maps_;     // per wall
   std::vector<std::optional<wear::WearingTip>> tips_;  // per particle

@@ -41,6 +41,28 @@ struct MapLayer {
   wear::WearMap::Layer* layer = nullptr;
 };
 
+/// What falls on one triangle of a contact's wear, as parts of the whole: in all, and at its corners.
+struct WearShare {
+  geometry::Index triangle = 0;
+  double whole = 0.0, at0 = 0.0, at1 = 0.0, at2 = 0.0;
+  double area = 0.0;  ///< of the triangle [m^2]
+};
+/// What contacts did to walls in one step, until it is booked.
+struct WearRecords {
+  struct Record {
+    std::int32_t contact = 0, wall = 0, material = 0;  ///< whose it is
+    bool nodal = false;                                ///< the shares are loads of candidate nodes
+    std::size_t first = 0, end = 0;                    ///< its shares
+    wear::MapSample sample;                            ///< but for the volumes
+  };
+  std::vector<Record> record;
+  std::vector<WearShare> share;
+  void clear() noexcept {
+    record.clear();
+    share.clear();
+  }
+};
+
 struct ForceAndTorque {
   Vec3 force, torque;
 };
@@ -82,8 +104,8 @@ class SphereWall {
     }
   };
 
-  /// First part of the search, in the order of particles: settles what the last candidates still owe the
-  /// wall.
+  /// First part of the search: settles what the last candidates still owe the wall. Where they owe it
+  /// elements (owes_elements), in the order of particles; else it touches nothing but this object.
   /// @param c,v position and velocity of the sphere in the wall's frame
   /// @param load a force of the size to be expected, for the margin of the search [N]
   void prepare(Wall& wall, const Vec3& c, const Vec3& v, double R, const contact::PairProperties& pair,
@@ -120,41 +142,20 @@ class SphereWall {
     return volume;
   }
 
-  /// The same by several laws at once, and on the wall's map. @param account is added to
-  /// @return the volume of all mechanisms [m^3]
-  template <typename SlipOf>
-  double deposit_by_laws(Wall& wall, const wear::Laws& laws, const SphereState& sphere,
-                         const contact::PairProperties& pair, double dt, WearAccount& account,
-                         SlipOf&& slip_of, const MapLayer& map = {}) {
-    const double R = sphere.radius, mass = sphere.mass;
-    double volume = 0.0;
-    for (const Touch& touch : touches_) {
-      wear::MapSample sample;
-      sample.work = work_of(touch, slip_of(touch), mass, pair, dt);
-      wear::add_work(laws, sample.work, sample.volumes);
-      if (const Memory* memory = memory_of(touch); memory != nullptr && memory->striking) {
-        sample.strikes = true;
-        sample.impact = {memory->speed, memory->angle, mass, 2.0 * R};
-        wear::add_impact(laws, sample.impact, sample.volumes);
-        if (laws.strikes()) account.impacts.add(sample.impact, sample.volumes);
-      }
-      const double dV = wear::total(sample.volumes);
-      if (dV > 0.0 || map.layer != nullptr) {
-        const Landing landing = land(wall, touch, R, pair);
-        if (dV > 0.0) deposit_landed(wall, landing, dV);
-        if (map.layer != nullptr) {
-          sample.dt = dt;
-          sample.sliding_speed = touch.force.v_t;
-          sample.weight = touch.weight;
-          sample.hertz_area = hertz_area(touch, R, pair);
-          map_landed(*map.map, *map.layer, landing, sample);
-        }
-      }
-      volume += dV;
-      for (std::size_t m = 0; m < sample.volumes.size(); ++m) account.law[m] += sample.volumes[m];
-    }
-    return volume;
-  }
+  /// How the wear of a step is recorded.
+  struct Recording {
+    double dt = 0.0;            ///< [s]
+    bool by_speed = false;      ///< contacts slide by |v_t| dt, not by their plastic slip
+    bool sliding_only = false;  ///< nobody asks for what does not slide under load
+    std::int32_t contact = 0, wall = 0, material = 0;  ///< whose they are to be
+  };
+  /// Records what the contacts do to the wall in this step. Touches nothing but this object and the records.
+  void record_wear(const Wall& wall, const SphereState& sphere, const contact::PairProperties& pair,
+                   const Recording& how, WearRecords& records);
+  /// Books a contact of this step, or what was recorded of it: its volumes on the surface, and what it did on
+  /// the map, where there is one.
+  void book(Wall& wall, const WearRecords& records, const WearRecords::Record& record,
+            const wear::MapSample& sample, const MapLayer& map);
 
   /// The sphere's worn end as this wall sees it now, for the next find.
   void set_tip(const contact::Tip& tip) noexcept { tip_ = tip; }
@@ -205,6 +206,8 @@ class SphereWall {
 
   /// Hands the wear of elements that is still kept in the candidates' numbering to the surface.
   void book_elements(Wall& wall);
+  /// Is there any?
+  [[nodiscard]] bool owes_elements() const noexcept { return !node_pending_.empty(); }
   /// Wear of elements not yet handed over [m^3].
   [[nodiscard]] double pending_volume() const noexcept;
 
@@ -275,28 +278,22 @@ class SphereWall {
   [[nodiscard]] wear::OverlapField overlap_field(double R, double deepest, bool of_point);
   void shape_tip(wear::WearingTip& tip, const Wall& wall, const contact::PairProperties& pair, bool due);
   void press(wear::WearingTip& tip, const Wall& wall, const Spot& spot, double d_e);
-  /// How a contact's wear falls: all of it in one candidate triangle, with these parts at its corners; or by
-  /// the shares of a footprint, valid until the next; or nowhere.
+  /// How a contact's wear falls: on triangles or, under a footprint of nodes, valid until the next, on these;
+  /// or nowhere.
   struct Landing {
-    std::int32_t triangle = -1;
-    double at0 = 0.0, at1 = 0.0, at2 = 0.0;
-    const wear::FootprintShares* shares = nullptr;
-    [[nodiscard]] bool nowhere() const noexcept { return triangle < 0 && shares == nullptr; }
+    const wear::FootprintShares* nodes = nullptr;
+    std::span<const WearShare> triangles;
+    [[nodiscard]] bool nowhere() const noexcept { return nodes == nullptr && triangles.empty(); }
   };
   [[nodiscard]] bool lands_inside(const Touch& touch, double R, const contact::PairProperties& pair,
-                                  Landing& landing) const;
+                                  WearShare& share) const;
+  /// @return valid until the next call
   [[nodiscard]] Landing land(const Wall& wall, const Touch& touch, double R,
                              const contact::PairProperties& pair);
   void deposit_landed(Wall& wall, const Landing& landing, double dV);
-  void map_landed(wear::WearMap& map, wear::WearMap::Layer& layer, const Landing& landing,
-                  const wear::MapSample& sample);
-  [[nodiscard]] static double hertz_area(const Touch& touch, double R,
-                                         const contact::PairProperties& pair) noexcept {
-    return std::numbers::pi * R * contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight);
-  }
-  [[nodiscard]] const Memory* memory_of(const Touch& touch) const noexcept {
-    return touch.memory >= 0 ? &memory_[static_cast<std::size_t>(touch.memory)] : nullptr;
-  }
+  void map_landed(const MapLayer& map, const Landing& landing, const wear::MapSample& sample) const;
+  [[nodiscard]] wear::MapSample sample_of(const Touch& touch, const SphereState& sphere,
+                                          const contact::PairProperties& pair, double dt, double slip) const;
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
   void touch_patches(double R, std::span<const contact::Patch> patches);
   void touch_points(const Wall& wall, double R, const contact::PairProperties& pair,
@@ -325,7 +322,7 @@ class SphereWall {
   std::vector<Spot> spots_;
   std::vector<Memory> memory_, kept_;
   std::vector<char> mask_;
-  std::vector<double> density_;       // scratch: of a footprint's share at each candidate node [1/m^2]
+  std::vector<WearShare> shares_;     // of the last landing
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
   bool stale_ = true;                 // the candidates were gathered anew in this step
   double reach_ = 0.0;

@@ -2,6 +2,7 @@
 // What a contact between a sphere and a wall wears off: where it falls, off the sphere's tip, into ridges.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "abradem/simulation/sphere_wall.h"
 
@@ -15,7 +16,7 @@ std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 /// point, so that its moments with the (linear) shape functions are these functions there: no integral is
 /// needed.
 bool SphereWall::lands_inside(const Touch& touch, double R, const contact::PairProperties& pair,
-                              Landing& landing) const {
+                              WearShare& share) const {
   const auto t = static_cast<std::size_t>(touch.nearest);
   const double a =
       contact::contact_radius(R, contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight));
@@ -30,62 +31,62 @@ bool SphereWall::lands_inside(const Touch& touch, double R, const contact::PairP
   const double size = std::sqrt(area2);
   if (b0 * size < a * norm(p2 - p1) || b1 * size < a * norm(p0 - p2) || b2 * size < a * norm(p1 - p0))
     return false;
-  landing = {touch.nearest, b0, b1, b2, nullptr};
+  share = {candidates_.triangle[t], 1.0, b0, b1, b2, candidates_.area[t]};
   return true;
 }
 
 /// Where what a contact does to the wall falls; on a plane nowhere.
 SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, double R,
                                      const contact::PairProperties& pair) {
+  shares_.clear();
   if (wall.is_plane()) return {};
   const bool paper = wall.setup().deformation == DeformationRule::paper;
   if (wall.setup().contact == ContactRule::per_triangle) {
-    if (paper) return {touch.part, 0.0, 0.0, 0.0, nullptr};
-    const auto t = static_cast<std::size_t>(touch.part);
-    const Vec3 a = candidates_.node_position(at(candidates_.v0[t]));
-    const Vec3 e1 = candidates_.node_position(at(candidates_.v1[t])) - a;
-    const Vec3 e2 = candidates_.node_position(at(candidates_.v2[t])) - a;
-    const Vec3 p = touch.point - a;
-    const double d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), det = d11 * d22 - d12 * d12;
-    const double b1 = std::clamp((d22 * dot(p, e1) - d12 * dot(p, e2)) / det, 0.0, 1.0);
-    const double b2 = std::clamp((d11 * dot(p, e2) - d12 * dot(p, e1)) / det, 0.0, 1.0 - b1);
-    return {touch.part, 1.0 - b1 - b2, b1, b2, nullptr};
+    const std::size_t t = at(touch.part);
+    WearShare share{candidates_.triangle[t], 1.0, 0.0, 0.0, 0.0, candidates_.area[t]};
+    if (!paper) {
+      const Vec3 a = candidates_.node_position(at(candidates_.v0[t]));
+      const Vec3 e1 = candidates_.node_position(at(candidates_.v1[t])) - a;
+      const Vec3 e2 = candidates_.node_position(at(candidates_.v2[t])) - a;
+      const Vec3 p = touch.point - a;
+      const double d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), det = d11 * d22 - d12 * d12;
+      share.at1 = std::clamp((d22 * dot(p, e1) - d12 * dot(p, e2)) / det, 0.0, 1.0);
+      share.at2 = std::clamp((d11 * dot(p, e2) - d12 * dot(p, e1)) / det, 0.0, 1.0 - share.at1);
+      share.at0 = 1.0 - share.at1 - share.at2;
+    }
+    shares_.push_back(share);
+    return {nullptr, shares_};
   }
 
-  Landing landing;
+  WearShare share;
   if (touch.of_point && !paper && !tip_.worn() && wall.setup().footprint == Footprint::hertz &&
-      lands_inside(touch, R, pair, landing))
-    return landing;
+      lands_inside(touch, R, pair, share)) {
+    shares_.push_back(share);
+    return {nullptr, shares_};
+  }
   const std::span<const char> mask = mask_of(wall, touch.part, touch.of_point);
   const wear::OverlapField field = overlap_field(R, touch.deepest, touch.of_point);
-  landing.shares =
+  const wear::FootprintShares& print =
       wall.setup().footprint == Footprint::hertz
-          ? &footprint_.hertz(candidates_, field,
-                              contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight), paper, mask)
-          : &footprint_.overlap(candidates_, field, paper, mask);
-  if (!(landing.shares->total > 0.0)) landing.shares = nullptr;
-  return landing;
+          ? footprint_.hertz(candidates_, field,
+                             contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight), paper, mask)
+          : footprint_.overlap(candidates_, field, paper, mask);
+  if (!(print.total > 0.0)) return {};
+  if (print.nodal) return {&print, {}};
+  const double part = 1.0 / print.total;
+  for (std::size_t t = 0; t < print.count; ++t)
+    if (const double w = (print.at0[t] + print.at1[t]) + print.at2[t]; w > 0.0)
+      shares_.push_back({candidates_.triangle[t], part * w, part * print.at0[t], part * print.at1[t],
+                         part * print.at2[t], candidates_.area[t]});
+  return {nullptr, shares_};
 }
 
 void SphereWall::deposit_landed(Wall& wall, const Landing& landing, double dV) {
   if (landing.nowhere()) return;
   wear::WearingSurface& surface = wall.surface();
-  const bool paper = wall.setup().deformation == DeformationRule::paper;
-  if (landing.triangle >= 0) {
-    const geometry::Index t = candidates_.triangle[at(landing.triangle)];
-    if (paper)
-      surface.deposit_element(t, dV);
-    else
-      surface.deposit(t, dV, dV * landing.at0, dV * landing.at1, dV * landing.at2);
-    return;
-  }
-  const wear::FootprintShares& shares = *landing.shares;
-  const double scale = dV / shares.total;
-  if (paper) {
-    for (std::size_t t = 0; t < shares.count; ++t)
-      if (const double w = (shares.at0[t] + shares.at1[t]) + shares.at2[t]; w > 0.0)
-        surface.deposit_element(candidates_.triangle[t], scale * w);
-  } else if (shares.nodal) {
+  if (landing.nodes != nullptr) {
+    const wear::FootprintShares& shares = *landing.nodes;
+    const double scale = dV / shares.total;
     node_pending_.resize(candidates_.x.size());
     for (std::size_t i = 0; i < shares.at_node.size(); ++i) {
       if (!(shares.at_node[i] > 0.0)) continue;
@@ -93,12 +94,69 @@ void SphereWall::deposit_landed(Wall& wall, const Landing& landing, double dV) {
       node_pending_[i] += volume;
       surface.deposit_at_vertex(candidates_.node[i], volume);
     }
+  } else if (wall.setup().deformation == DeformationRule::paper) {
+    for (const WearShare& s : landing.triangles) surface.deposit_element(s.triangle, dV * s.whole);
   } else {
-    for (std::size_t t = 0; t < shares.count; ++t)
-      if (const double w = (shares.at0[t] + shares.at1[t]) + shares.at2[t]; w > 0.0)
-        surface.deposit(candidates_.triangle[t], scale * w, scale * shares.at0[t], scale * shares.at1[t],
-                        scale * shares.at2[t]);
+    for (const WearShare& s : landing.triangles)
+      surface.deposit(s.triangle, dV * s.whole, dV * s.at0, dV * s.at1, dV * s.at2);
   }
+}
+
+/// What the wall sees of a contact in this step.
+wear::MapSample SphereWall::sample_of(const Touch& touch, const SphereState& sphere,
+                                      const contact::PairProperties& pair, double dt, double slip) const {
+  wear::MapSample sample;
+  sample.work = work_of(touch, slip, sphere.mass, pair, dt);
+  sample.dt = dt;
+  sample.sliding_speed = touch.force.v_t;
+  sample.weight = touch.weight;
+  sample.hertz_area = std::numbers::pi * sphere.radius *
+                      contact::hertz_overlap(pair, sphere.radius, touch.force.F_n / touch.weight);
+  if (touch.memory < 0) return sample;
+  if (const Memory& memory = memory_[at(touch.memory)]; memory.striking) {
+    sample.strikes = true;
+    sample.impact = {memory.speed, memory.angle, sphere.mass, 2.0 * sphere.radius};
+  }
+  return sample;
+}
+
+void SphereWall::record_wear(const Wall& wall, const SphereState& sphere, const contact::PairProperties& pair,
+                             const Recording& how, WearRecords& records) {
+  for (const Touch& touch : touches_) {
+    const double slip = how.by_speed ? touch.force.v_t * how.dt : touch.force.slip;
+    if (how.sliding_only && !(touch.force.F_n > 0.0 && slip > 0.0)) continue;
+    const Landing landing = land(wall, touch, sphere.radius, pair);
+    records.record.push_back({.contact = how.contact,
+                              .wall = how.wall,
+                              .material = how.material,
+                              .nodal = landing.nodes != nullptr,
+                              .first = records.share.size(),
+                              .end = 0,
+                              .sample = sample_of(touch, sphere, pair, how.dt, slip)});
+    if (landing.nodes != nullptr)
+      for (const double load : landing.nodes->at_node) records.share.push_back({.at0 = load});
+    else
+      records.share.insert(records.share.end(), landing.triangles.begin(), landing.triangles.end());
+    records.record.back().end = records.share.size();
+  }
+}
+
+void SphereWall::book(Wall& wall, const WearRecords& records, const WearRecords::Record& record,
+                      const wear::MapSample& sample, const MapLayer& map) {
+  Landing landing;
+  wear::FootprintShares nodes;
+  std::vector<double> load;
+  if (record.nodal) {
+    for (std::size_t k = record.first; k < record.end; ++k) load.push_back(records.share[k].at0);
+    for (const double l : load) nodes.total += l;
+    nodes.nodal = true;
+    nodes.at_node = load;
+    landing.nodes = &nodes;
+  } else {
+    landing.triangles = std::span(records.share).subspan(record.first, record.end - record.first);
+  }
+  if (const double dV = wear::total(sample.volumes); dV > 0.0) deposit_landed(wall, landing, dV);
+  if (map.layer != nullptr) map_landed(map, landing, sample);
 }
 
 /// Triangles of one contact (0: not of it); empty: all.
@@ -111,8 +169,12 @@ std::span<const char> SphereWall::mask_of(const Wall& wall, int part, bool of_po
 }
 
 wear::OverlapField SphereWall::overlap_field(double R, double deepest, bool of_point) {
-  return {of_point ? points_.node_excess(candidates_) : patches_.node_excess(), R,      deepest, tip_,
-          of_point ? points_.raw_excess() : patches_.raw_excess(),   centre_};
+  return {of_point ? points_.node_excess(candidates_) : patches_.node_excess(),
+          R,
+          deepest,
+          tip_,
+          of_point ? points_.raw_excess() : patches_.raw_excess(),
+          centre_};
 }
 
 const std::vector<SphereWall::Spot>& SphereWall::find_spots(const Wall& wall) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "abradem/geometry/pose.h"
@@ -8,6 +10,10 @@
 #include "abradem/simulation/wall.h"
 
 namespace abradem::simulation {
+
+/// What of the contacts between a material and a wall is to be booked as wear: nothing, what slides under
+/// load (Archard alone), all.
+enum class WearUse : std::uint8_t { none, sliding, all };
 
 /// What particles in numbers see of the simulation that they are part of; made anew for every use.
 struct Surroundings {
@@ -17,7 +23,8 @@ struct Surroundings {
   std::size_t materials = 0;
   double dt = 0.0;  ///< [s]
   double time = 0.0;
-  Vec3 gravity;  ///< [m/s^2]
+  Vec3 gravity;                   ///< [m/s^2]
+  std::span<const WearUse> wear;  ///< walls x materials
 
   [[nodiscard]] const material::PairProperties& pair(int a, int b) const {
     return properties[static_cast<std::size_t>(a) * materials + static_cast<std::size_t>(b)];

@@ -54,6 +54,12 @@ class Wall {
   }
   /// Is it still there at this time [s]? (See WallSetup::until.)
   [[nodiscard]] bool present(double time) const noexcept { return !setup_.until || time < *setup_.until; }
+  /// Does it wear by |v_t| dt, whether a contact sticks or slips? Ours wear by the plastic slip. The paper's
+  /// rules wear by the speed (eq. 5): their springs begin anew on every element, so what they call slip would
+  /// come short.
+  [[nodiscard]] bool wears_by_speed() const noexcept {
+    return setup_.deformation == DeformationRule::paper || setup_.contact == ContactRule::per_triangle;
+  }
   /// Must contacts remember how they began, for laws that wear by impacts?
   void watch_impacts() noexcept { watches_impacts_ = true; }
   [[nodiscard]] bool watches_impacts() const noexcept { return watches_impacts_; }

@@ -44,26 +44,22 @@ std::vector<std::uint16_t> region_of_elements(const geometry::TriangleMesh& mesh
 
 /// Books on the map what a contact did where it has landed. What lies at a node is of the triangles around
 /// it, each by its part of the node's area, as in book_elements.
-void SphereWall::map_landed(wear::WearMap& map, wear::WearMap::Layer& layer, const Landing& landing,
-                            const wear::MapSample& sample) {
+void SphereWall::map_landed(const MapLayer& map, const Landing& landing,
+                            const wear::MapSample& sample) const {
   if (landing.nowhere()) return;
-  wear::WearMap::Booking booking(map, layer, sample);
-  const auto add = [&](std::size_t t, double share) {
-    if (share > 0.0) booking.add(at(candidates_.triangle[t]), share, candidates_.area[t]);
-  };
-  if (landing.triangle >= 0) {
-    add(at(landing.triangle), 1.0);
-  } else if (const wear::FootprintShares& shares = *landing.shares; shares.nodal) {
-    density_.assign(candidates_.node_count(), 0.0);
-    for (std::size_t i = 0; i < shares.at_node.size() && i < density_.size(); ++i)
-      density_[i] = shares.at_node[i] / (3.0 * shares.total * candidates_.node_area[i]);
-    for (std::size_t t = 0; t < candidates_.triangle_count(); ++t)
-      add(t, (density_[at(candidates_.v0[t])] + density_[at(candidates_.v1[t])] +
-              density_[at(candidates_.v2[t])]) *
-                 candidates_.area[t]);
-  } else {
-    for (std::size_t t = 0; t < shares.count; ++t)
-      add(t, ((shares.at0[t] + shares.at1[t]) + shares.at2[t]) / shares.total);
+  wear::WearMap::Booking booking(*map.map, *map.layer, sample);
+  for (const WearShare& s : landing.triangles) booking.add(at(s.triangle), s.whole, s.area);
+  if (landing.nodes != nullptr) {
+    const wear::FootprintShares& shares = *landing.nodes;
+    std::vector<double> density(candidates_.node_count(), 0.0);
+    for (std::size_t i = 0; i < shares.at_node.size() && i < density.size(); ++i)
+      density[i] = shares.at_node[i] / (3.0 * shares.total * candidates_.node_area[i]);
+    for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
+      const double share =
+          (density[at(candidates_.v0[t])] + density[at(candidates_.v1[t])] + density[at(candidates_.v2[t])]) *
+          candidates_.area[t];
+      if (share > 0.0) booking.add(at(candidates_.triangle[t]), share, candidates_.area[t]);
+    }
   }
   booking.finish();
 }

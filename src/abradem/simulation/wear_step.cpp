@@ -7,34 +7,38 @@
 
 namespace abradem::simulation {
 
-double Simulation::slip_of(const SphereWall::Touch& touch, const WallSetup& wall) const noexcept {
-  // Ours wears by the plastic slip. The paper's rules wear by |v_t| dt whether the contact sticks or slips
-  // (eq. 5): their springs begin anew on every element, so what they call slip would come short.
-  const bool by_speed = wall.deformation == DeformationRule::paper ||
-                        wall.contact == ContactRule::per_triangle ||
-                        setup_.run.method == Method::quasi_static;
-  return by_speed ? touch.force.v_t * dt_ : touch.force.slip;
+double Simulation::slip_of(const SphereWall::Touch& touch, const Wall& wall) const noexcept {
+  return wears_by_speed(wall) ? touch.force.v_t * dt_ : touch.force.slip;
+}
+
+bool Simulation::wears_by_speed(const Wall& wall) const noexcept {
+  return wall.wears_by_speed() || setup_.run.method == Method::quasi_static;
 }
 
 void Simulation::accumulate_wear() {
   for (std::size_t p = 0; p < particles_.size(); ++p)
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       Wall& wall = walls_[w];
+      SphereWall& contact = sphere_walls_[p * walls_.size() + w];
       const double alpha_s = groove_coefficient(particles_.material[p], wall.material());
-      const MapLayer map = map_layer(w, particles_.material[p]);
-      if (by_laws_[w] != 0 || map.layer != nullptr) {
-        law_[w] += sphere_walls_[p * walls_.size() + w].deposit_by_laws(
-            wall, wear_laws(particles_.material[p], wall.material()),
-            {{}, {}, {}, particles_.radius[p], particles_.mass[p]},
-            pair(particles_.material[p], wall.material()), dt_, account_[w],
-            [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); }, map);
+      if (by_laws_[w] != 0 || map_layer(w, particles_.material[p]).layer != nullptr) {
+        records_.clear();
+        contact.record_wear(wall, {{}, {}, {}, particles_.radius[p], particles_.mass[p]},
+                            pair(particles_.material[p], wall.material()),
+                            {.dt = dt_,
+                             .by_speed = wears_by_speed(wall),
+                             .wall = static_cast<std::int32_t>(w),
+                             .material = particles_.material[p]},
+                            records_);
+        for (const WearRecords::Record& record : records_.record)
+          law_[w] += book_wear(contact, records_, record);
       } else if (alpha_s != 0.0) {
-        const double volume = sphere_walls_[p * walls_.size() + w].deposit(
-            wall, alpha_s, particles_.radius[p], pair(particles_.material[p], wall.material()),
-            [&](const SphereWall::Touch& t) { return slip_of(t, wall.setup()); });
+        const double volume = contact.deposit(wall, alpha_s, particles_.radius[p],
+                                              pair(particles_.material[p], wall.material()),
+                                              [&](const SphereWall::Touch& t) { return slip_of(t, wall); });
         if (ploughs())
           plough(
-              sphere_walls_[p * walls_.size() + w], w,
+              contact, w,
               {particles_.position[p], particles_.velocity[p], particles_.radius[p], particles_.material[p]},
               volume);
         else
@@ -42,33 +46,67 @@ void Simulation::accumulate_wear() {
       }
       if (tips_[p]) wear_tip(p, w);
     }
-  if (!bulk_) return;
+  if (bulk_) accumulate_bulk_wear();
+}
+
+void Simulation::accumulate_bulk_wear() {
   for (std::size_t w = 0; w < walls_.size(); ++w)
     if (walls_[w].is_plane()) law_[w] += by_laws_[w] != 0 ? plane_wear_by_laws(w) : plane_wear(w);
-  for (BulkWalls::NearMesh& m : bulk_->walls().meshes()) {
-    const contact::SphereRow& s = bulk_->spheres().row[static_cast<std::size_t>(m.sphere)];
-    const auto w = static_cast<std::size_t>(m.wall);
-    const auto material = static_cast<int>(s.material);
-    if (!m.awake && !ploughs()) continue;
-    if (m.contact->touches().empty() && m.contact->unpiled_volume() == 0.0) continue;
-    const MapLayer map = map_layer(w, material);
-    if (by_laws_[w] != 0 || map.layer != nullptr) {
-      law_[w] += m.contact->deposit_by_laws(
-          walls_[w], wear_laws(material, walls_[w].material()), {{}, {}, {}, s.radius, 1.0 / s.inverse_mass},
-          pair(material, walls_[w].material()), dt_, account_[w],
-          [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); }, map);
-      continue;
+  std::vector<BulkWalls::NearMesh>& meshes = bulk_->walls().meshes();
+  std::vector<double> groove(ploughs() ? meshes.size() : 0, 0.0);  // of each contact [m^3]
+  for (const WearRecords& records : bulk_->walls().wear())
+    for (const WearRecords::Record& record : records.record) {
+      BulkWalls::NearMesh& m = meshes[static_cast<std::size_t>(record.contact)];
+      const double volume = book_wear(*m.contact, records, record);
+      m.owes = m.owes || record.nodal;
+      if (ploughs())
+        groove[static_cast<std::size_t>(record.contact)] += volume;
+      else
+        law_[static_cast<std::size_t>(record.wall)] += volume;
     }
-    const double alpha_s = groove_coefficient(material, walls_[w].material());
-    if (alpha_s == 0.0) continue;
-    const double volume =
-        m.contact->deposit(walls_[w], alpha_s, s.radius, pair(material, walls_[w].material()),
-                           [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
-    if (ploughs())
-      plough(*m.contact, w, {s.position(), s.velocity(), s.radius, material}, volume);
-    else
-      law_[w] += volume;
+  for (std::size_t k = 0; k < groove.size(); ++k) {
+    const contact::SphereRow& s = bulk_->spheres().row[static_cast<std::size_t>(meshes[k].sphere)];
+    if (groove[k] > 0.0 || meshes[k].contact->unpiled_volume() > 0.0)
+      plough(*meshes[k].contact, static_cast<std::size_t>(meshes[k].wall),
+             {s.position(), s.velocity(), s.radius, static_cast<int>(s.material)}, groove[k]);
   }
+}
+
+/// Books one contact by the laws of its pair. @return the law's volume; where they plough, that of the groove
+/// [m^3]
+double Simulation::book_wear(SphereWall& contact, const WearRecords& records,
+                             const WearRecords::Record& record) {
+  const auto w = static_cast<std::size_t>(record.wall);
+  const int material = record.material;
+  wear::MapSample sample = record.sample;
+  const MapLayer map = map_layer(w, material);
+  if (by_laws_[w] == 0 && map.layer == nullptr) {
+    sample.volumes[static_cast<std::size_t>(wear::Mechanism::archard)] =
+        wear::archard_volume(groove_coefficient(material, walls_[w].material()), sample.work.contact);
+  } else {
+    const wear::Laws& laws = wear_laws(material, walls_[w].material());
+    wear::add_work(laws, sample.work, sample.volumes);
+    if (sample.strikes) {
+      wear::add_impact(laws, sample.impact, sample.volumes);
+      if (laws.strikes()) account_[w].impacts.add(sample.impact, sample.volumes);
+    }
+    for (std::size_t m = 0; m < sample.volumes.size(); ++m) account_[w].law[m] += sample.volumes[m];
+  }
+  contact.book(walls_[w], records, record, sample, map);
+  return wear::total(sample.volumes);
+}
+
+/// Of all walls and materials, once the laws, accounts and maps are known.
+void Simulation::find_uses_of_wear() {
+  const std::size_t materials = setup_.materials.size();
+  wear_use_.assign(walls_.size() * materials, WearUse::none);
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    for (std::size_t m = 0; m < materials; ++m) {
+      const int material = static_cast<int>(m);
+      WearUse& use = wear_use_[w * materials + m];
+      if (groove_coefficient(material, walls_[w].material()) != 0.0) use = WearUse::sliding;
+      if (by_laws_[w] != 0 || map_layer(w, material).layer != nullptr) use = WearUse::all;
+    }
 }
 
 /// What the law would wear off an analytic plane, which keeps its shape [m^3].
@@ -137,7 +175,7 @@ void Simulation::wear_tip(std::size_t p, std::size_t w) {
   if (alpha_s == 0.0) return;
   tip_law_[p] += sphere_walls_[p * walls_.size() + w].wear_tip(
       *tips_[p], walls_[w], alpha_s, pair(particles_.material[p], walls_[w].material()), output_due(),
-      [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w].setup()); });
+      [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w]); });
 }
 
 /// Of what leaves the groove the removed fraction is lost, and the rest is piled up beside the contact.
