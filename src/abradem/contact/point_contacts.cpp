@@ -70,8 +70,9 @@ void PointContactFinder::travel(const MeshCandidates& candidates, const Vec3& c,
 
 void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip,
                                  bool sheet) {
+  Findings& f = found();
   travel(candidates, c, R);
-  touched_.clear();
+  f.touched.clear();
   excess_known_ = false;
   for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
     if (wake_[t] > way_) continue;
@@ -89,27 +90,28 @@ void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c
     const auto local = static_cast<std::int32_t>(t);
     const double overlap = tip.worn() ? tip.overlap(-offset, R) : R - distance;
     const Vec3 n = tip.worn() ? tip.inward_normal(-offset) : offset / distance;
-    touched_.push_back({closest.point, n, overlap, closest.feature, local, local});
+    f.touched.push_back({closest.point, n, overlap, closest.feature, local, local});
   }
-  raw_.clear();
+  f.raw.clear();
   if (tip.worn()) {
     find_excess(candidates);
-    raw_ = excess_;
-    correction_.apply(candidates, c, R, tip, raw_, excess_);
+    f.raw = f.excess;
+    f.correction.apply(candidates, c, R, tip, f.raw, f.excess);
   }
 }
 
 void PointContactFinder::find_excess(const MeshCandidates& candidates) {
-  excess_.assign(candidates.x.size(), -1.0);
+  Findings& f = found();
+  f.excess.assign(candidates.x.size(), -1.0);
   const double inverse = 1.0 / (radius_ * radius_);
   for (std::size_t i = 0; i < candidates.node_count(); ++i)
-    excess_[i] = 1.0 - norm2(candidates.node_position(i) - last_) * inverse;
+    f.excess[i] = 1.0 - norm2(candidates.node_position(i) - last_) * inverse;
   excess_known_ = true;
 }
 
 std::span<const double> PointContactFinder::node_excess(const MeshCandidates& candidates) {
   if (!excess_known_) find_excess(candidates);
-  return excess_;
+  return found().excess;
 }
 
 double PointContactFinder::clearance() const noexcept {
@@ -120,35 +122,37 @@ double PointContactFinder::clearance() const noexcept {
 
 std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates,
                                                                const Vec3& c, double R, const Tip& tip) {
+  Findings& f = found();
   collect(candidates, c, R, tip, false);
-  std::sort(touched_.begin(), touched_.end(), stronger);
-  accepted_.clear();
-  for (const PointContact& p : touched_) {
+  std::sort(f.touched.begin(), f.touched.end(), stronger);
+  f.accepted.clear();
+  for (const PointContact& p : f.touched) {
     const auto [a, b] = feature_vertices(candidates, p);
     // Owned by a stronger contact that touches the same feature: a face around it, an edge that ends in it,
     // or itself once more. (Not by an edge opposite to it: which of two triangles stands for an edge is
     // arbitrary.)
     const bool owned =
-        a >= 0 && std::ranges::any_of(accepted_, [&, a = a, b = b](const PointContact& q) {
+        a >= 0 && std::ranges::any_of(f.accepted, [&, a = a, b = b](const PointContact& q) {
           if (q.feature == Feature::face)
             return has_vertex(candidates, q.triangle, a) && has_vertex(candidates, q.triangle, b);
           const auto [qa, qb] = feature_vertices(candidates, q);
           return (qa == a || qb == a) && (qa == b || qb == b);
         });
-    if (!owned && p.overlap > 0.0) accepted_.push_back(p);
+    if (!owned && p.overlap > 0.0) f.accepted.push_back(p);
   }
-  return accepted_;
+  return f.accepted;
 }
 
 std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates& candidates, const Vec3& c,
                                                            double R, const Tip& tip, bool sheet) {
+  Findings& f = found();
   collect(candidates, c, R, tip, sheet);
   find_flat_sets(candidates);
   // Each set's deepest point, strongest sets first.
-  std::vector<PointContact>& best = best_;
+  std::vector<PointContact>& best = f.best;
   best.clear();
-  for (PointContact& p : touched_) {
-    p.set = set_[at(p.triangle)];
+  for (PointContact& p : f.touched) {
+    p.set = f.set[at(p.triangle)];
     const auto same = std::ranges::find(best, p.set, &PointContact::set);
     if (same == best.end())
       best.push_back(p);
@@ -156,30 +160,31 @@ std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates&
       *same = p;
   }
   std::sort(best.begin(), best.end(), stronger);
-  accepted_.clear();
+  f.accepted.clear();
   for (const PointContact& p : best) {
     if (!(p.overlap > 0.0)) continue;
     const auto [a, b] = feature_vertices(candidates, p);
     const auto set_holds_feature = [&, a = a, b = b](const PointContact& q) {
-      return std::ranges::any_of(touched_, [&](const PointContact& t) {
+      return std::ranges::any_of(f.touched, [&](const PointContact& t) {
         return t.set == q.set && has_vertex(candidates, t.triangle, a) &&
                has_vertex(candidates, t.triangle, b);
       });
     };
-    if (a < 0 || std::ranges::none_of(accepted_, set_holds_feature)) accepted_.push_back(p);
+    if (a < 0 || std::ranges::none_of(f.accepted, set_holds_feature)) f.accepted.push_back(p);
   }
-  return accepted_;
+  return f.accepted;
 }
 
 void PointContactFinder::find_flat_sets(const MeshCandidates& candidates) {
+  Findings& f = found();
   constexpr double kCosFlat = 0.99619469809174555;  // 5 degrees
-  set_.assign(candidates.triangle_count(), -1);
-  for (const PointContact& p : touched_) set_[at(p.triangle)] = p.triangle;
-  if (touched_.size() < 2) return;
+  f.set.assign(candidates.triangle_count(), -1);
+  for (const PointContact& p : f.touched) f.set[at(p.triangle)] = p.triangle;
+  if (f.touched.size() < 2) return;
   TriangleLinks links(candidates.triangle_count());
-  for (std::size_t i = 0; i < touched_.size(); ++i)
-    for (std::size_t j = i + 1; j < touched_.size(); ++j) {
-      const auto s = touched_[i].triangle, t = touched_[j].triangle;
+  for (std::size_t i = 0; i < f.touched.size(); ++i)
+    for (std::size_t j = i + 1; j < f.touched.size(); ++j) {
+      const auto s = f.touched[i].triangle, t = f.touched[j].triangle;
       const int shared = has_vertex(candidates, s, candidates.v0[at(t)]) +
                          has_vertex(candidates, s, candidates.v1[at(t)]) +
                          has_vertex(candidates, s, candidates.v2[at(t)]);
@@ -189,7 +194,7 @@ void PointContactFinder::find_flat_sets(const MeshCandidates& candidates) {
           (candidates.area[at(s)] * candidates.area[at(t)]);
       if (shared >= 1 && cosine >= kCosFlat) links.join(s, t);
     }
-  for (const PointContact& p : touched_) set_[at(p.triangle)] = links.root(p.triangle);
+  for (const PointContact& p : f.touched) f.set[at(p.triangle)] = links.root(p.triangle);
 }
 
 }  // namespace abradem::contact

@@ -24,6 +24,21 @@ struct PointContact {
 /// vertex. docs/theory/contact-walls.md#point-contacts
 class PointContactFinder {
  public:
+  /// What a call finds. Many finders that are used one after another may share it (lend), where nobody asks
+  /// for it later: then it stays in the fast memory.
+  struct Findings {
+    std::vector<PointContact> touched;  // nearest point of every triangle that the ball cuts
+    std::vector<PointContact> accepted, best;
+    std::vector<int> set;
+    std::vector<double> excess, raw;
+    TipCorrection correction;
+  };
+  /// From now on findings go there; null: to a place of its own.
+  void lend(Findings* findings) noexcept {
+    lent_ = findings;
+    excess_known_ = false;
+  }
+
   /// Rule `per_triangle`: every triangle whose nearest point lies within R is a contact of its own; a shared
   /// edge or vertex counts once, and not at all where a triangle around it is touched on its face.
   std::span<const PointContact> per_triangle(const MeshCandidates& candidates, const Vec3& c, double R,
@@ -40,34 +55,33 @@ class PointContactFinder {
   /// excess that has the overlap with it.   @param candidates those of that call
   [[nodiscard]] std::span<const double> node_excess(const MeshCandidates& candidates);
   /// The same of the sphere as new; of a worn tip only.
-  [[nodiscard]] std::span<const double> raw_excess() const noexcept { return raw_; }
+  [[nodiscard]] std::span<const double> raw_excess() const noexcept { return found().raw; }
 
   /// Every triangle that the ball cut in the last call, each by its nearest point.
-  [[nodiscard]] std::span<const PointContact> touched() const noexcept { return touched_; }
-  /// After a call that found nothing: how far the sphere and the surface must come before the ball reaches any
-  /// of the candidates [m].
+  [[nodiscard]] std::span<const PointContact> touched() const noexcept { return found().touched; }
+  /// After a call that found nothing: how far the sphere and the surface must come before the ball reaches
+  /// any of the candidates [m].
   [[nodiscard]] double clearance() const noexcept;
 
   /// `resolved`: set of each candidate triangle, or -1 where it is not overlapped.
-  [[nodiscard]] std::span<const int> sets() const noexcept { return set_; }
+  [[nodiscard]] std::span<const int> sets() const noexcept { return found().set; }
 
  private:
   void collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip, bool sheet);
   void travel(const MeshCandidates& candidates, const Vec3& c, double R);
   void find_excess(const MeshCandidates& candidates);
   void find_flat_sets(const MeshCandidates& candidates);
+  [[nodiscard]] Findings& found() noexcept { return lent_ != nullptr ? *lent_ : own_; }
+  [[nodiscard]] const Findings& found() const noexcept { return lent_ != nullptr ? *lent_ : own_; }
 
-  std::vector<PointContact> touched_;  // nearest point of every triangle that the ball cuts
-  std::vector<PointContact> accepted_, best_;
-  std::vector<int> set_;
-  std::vector<double> excess_, raw_;
-  bool excess_known_ = false;
-  TipCorrection correction_;
   // Triangles out of reach: how far the sphere and the surface must have come before each can be touched.
   std::vector<double> wake_;  // [m]
   double way_ = 0.0, odometer_ = 0.0, radius_ = 0.0;
   Vec3 last_;
   std::uint64_t stamp_ = 0;  // of the candidates that these are of
+  bool excess_known_ = false;
+  Findings* lent_ = nullptr;
+  Findings own_;
 };
 
 }  // namespace abradem::contact

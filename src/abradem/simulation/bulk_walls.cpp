@@ -189,10 +189,14 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
   core::parallel_for(
       parts,
       [&](std::size_t part) {
+        static thread_local SphereWall::Scratch scratch;
         wear_[part].clear();
         for (std::size_t k = kPart * part; k < std::min(meshes_.size(), kPart * (part + 1)); ++k)
-          if (meshes_[k].awake && compute(k, spheres.row[at(meshes_[k].sphere)], around, wear_[part]))
-            deep[part] = 1;
+          if (meshes_[k].awake) {
+            if (!around.ploughs) meshes_[k].contact->lend(&scratch);
+            if (compute(k, spheres.row[at(meshes_[k].sphere)], around, wear_[part])) deep[part] = 1;
+            meshes_[k].contact->lend(nullptr);
+          }
       },
       kWorthSharing);
   return sound && std::ranges::none_of(deep, [](std::uint8_t d) { return d != 0; });

@@ -468,7 +468,7 @@ void Simulation::find_contacts() {
 }
 
 Surroundings Simulation::surroundings() noexcept {
-  return {walls_, poses_, pairs_, materials_.size(), dt_, time(), setup_.run.gravity, wear_use_};
+  return {walls_, poses_, pairs_, materials_.size(), dt_, time(), setup_.run.gravity, wear_use_, ploughs()};
 }
 
 void Simulation::compute_forces() {

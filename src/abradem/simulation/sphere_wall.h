@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <numbers>
+#include <memory>
 #include <vector>
 
 #include "abradem/contact/candidate_kernels.h"
@@ -103,6 +103,20 @@ class SphereWall {
       archive("of_point", self.of_point)("weight", self.weight);
     }
   };
+
+  /// What one step needs and nobody asks for afterwards. Objects that are used one after another may share
+  /// one (lend): then it stays in the fast memory, and there may be thousands of them.
+  struct Scratch {
+    contact::PointContactFinder::Findings points;
+    wear::FootprintIntegrator footprint;
+    std::vector<WearShare> shares;  // of the last landing
+    std::vector<char> mask;
+  };
+  /// Null: it has its own. What ploughs must not share.
+  void lend(Scratch* scratch) noexcept {
+    scratch_ = scratch;
+    points_.lend(scratch != nullptr ? &scratch->points : nullptr);
+  }
 
   /// First part of the search: settles what the last candidates still owe the wall. Where they owe it
   /// elements (owes_elements), in the order of particles; else it touches nothing but this object.
@@ -294,6 +308,11 @@ class SphereWall {
   void map_landed(const MapLayer& map, const Landing& landing, const wear::MapSample& sample) const;
   [[nodiscard]] wear::MapSample sample_of(const Touch& touch, const SphereState& sphere,
                                           const contact::PairProperties& pair, double dt, double slip) const;
+  [[nodiscard]] Scratch& scratch() noexcept {
+    if (scratch_ != nullptr) return *scratch_;
+    if (!own_) own_ = std::make_unique<Scratch>();
+    return *own_;
+  }
   void touch_plane(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
   void touch_patches(double R, std::span<const contact::Patch> patches);
   void touch_points(const Wall& wall, double R, const contact::PairProperties& pair,
@@ -317,12 +336,11 @@ class SphereWall {
   contact::MeshCandidates candidates_;
   contact::PatchEvaluator patches_;
   contact::PointContactFinder points_;
-  wear::FootprintIntegrator footprint_;
+  Scratch* scratch_ = nullptr;
+  std::unique_ptr<Scratch> own_;
   std::vector<Touch> touches_;
   std::vector<Spot> spots_;
   std::vector<Memory> memory_, kept_;
-  std::vector<char> mask_;
-  std::vector<WearShare> shares_;     // of the last landing
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
   bool stale_ = true;                 // the candidates were gathered anew in this step
   double reach_ = 0.0;

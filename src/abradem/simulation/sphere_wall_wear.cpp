@@ -38,8 +38,9 @@ bool SphereWall::lands_inside(const Touch& touch, double R, const contact::PairP
 /// Where what a contact does to the wall falls; on a plane nowhere.
 SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, double R,
                                      const contact::PairProperties& pair) {
-  shares_.clear();
   if (wall.is_plane()) return {};
+  std::vector<WearShare>& shares = scratch().shares;
+  shares.clear();
   const bool paper = wall.setup().deformation == DeformationRule::paper;
   if (wall.setup().contact == ContactRule::per_triangle) {
     const std::size_t t = at(touch.part);
@@ -54,31 +55,32 @@ SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, doubl
       share.at2 = std::clamp((d11 * dot(p, e2) - d12 * dot(p, e1)) / det, 0.0, 1.0 - share.at1);
       share.at0 = 1.0 - share.at1 - share.at2;
     }
-    shares_.push_back(share);
-    return {nullptr, shares_};
+    shares.push_back(share);
+    return {nullptr, shares};
   }
 
   WearShare share;
   if (touch.of_point && !paper && !tip_.worn() && wall.setup().footprint == Footprint::hertz &&
       lands_inside(touch, R, pair, share)) {
-    shares_.push_back(share);
-    return {nullptr, shares_};
+    shares.push_back(share);
+    return {nullptr, shares};
   }
   const std::span<const char> mask = mask_of(wall, touch.part, touch.of_point);
   const wear::OverlapField field = overlap_field(R, touch.deepest, touch.of_point);
   const wear::FootprintShares& print =
       wall.setup().footprint == Footprint::hertz
-          ? footprint_.hertz(candidates_, field,
-                             contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight), paper, mask)
-          : footprint_.overlap(candidates_, field, paper, mask);
+          ? scratch().footprint.hertz(candidates_, field,
+                                      contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight), paper,
+                                      mask)
+          : scratch().footprint.overlap(candidates_, field, paper, mask);
   if (!(print.total > 0.0)) return {};
   if (print.nodal) return {&print, {}};
   const double part = 1.0 / print.total;
   for (std::size_t t = 0; t < print.count; ++t)
     if (const double w = (print.at0[t] + print.at1[t]) + print.at2[t]; w > 0.0)
-      shares_.push_back({candidates_.triangle[t], part * w, part * print.at0[t], part * print.at1[t],
-                         part * print.at2[t], candidates_.area[t]});
-  return {nullptr, shares_};
+      shares.push_back({candidates_.triangle[t], part * w, part * print.at0[t], part * print.at1[t],
+                        part * print.at2[t], candidates_.area[t]});
+  return {nullptr, shares};
 }
 
 void SphereWall::deposit_landed(Wall& wall, const Landing& landing, double dV) {
@@ -163,9 +165,10 @@ void SphereWall::book(Wall& wall, const WearRecords& records, const WearRecords:
 std::span<const char> SphereWall::mask_of(const Wall& wall, int part, bool of_point) {
   const std::span<const int> parts = of_point ? points_.sets() : patches_.clusters();
   if (parts.empty() || wall.setup().contact == ContactRule::per_triangle) return {};
-  mask_.resize(candidates_.triangle_count());
-  for (std::size_t t = 0; t < mask_.size(); ++t) mask_[t] = parts[t] == part;
-  return mask_;
+  std::vector<char>& mask = scratch().mask;
+  mask.resize(candidates_.triangle_count());
+  for (std::size_t t = 0; t < mask.size(); ++t) mask[t] = parts[t] == part;
+  return mask;
 }
 
 wear::OverlapField SphereWall::overlap_field(double R, double deepest, bool of_point) {

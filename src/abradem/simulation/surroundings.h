@@ -25,6 +25,7 @@ struct Surroundings {
   double time = 0.0;
   Vec3 gravity;                   ///< [m/s^2]
   std::span<const WearUse> wear;  ///< walls x materials
+  bool ploughs = false;           ///< contacts pile up what they move aside
 
   [[nodiscard]] const material::PairProperties& pair(int a, int b) const {
     return properties[static_cast<std::size_t>(a) * materials + static_cast<std::size_t>(b)];
