@@ -32,6 +32,16 @@ std::size_t padded(std::size_t n) noexcept {
   return (n + MeshCandidates::kLanes - 1) / MeshCandidates::kLanes * MeshCandidates::kLanes;
 }
 
+/// Arrays of `count` one after another in a store.
+template <typename T>
+void lay_out(std::initializer_list<std::span<T>*> arrays, std::vector<T>& store, std::size_t count) noexcept {
+  std::size_t from = 0;
+  for (std::span<T>* array : arrays) {
+    *array = std::span(store).subspan(from, count);
+    from += count;
+  }
+}
+
 /// What is left of an offset across the slide once the nearest point of the slide is taken as origin.
 inline Vec3 beside(const Vec3& slide, const Vec3& offset) noexcept {
   const double length2 = norm2(slide);
@@ -226,7 +236,9 @@ void MeshCandidates::number_nodes(const TriangleMesh& mesh) {
   if (numbers.size() < mesh.vertices.size()) numbers.resize(mesh.vertices.size(), -1);
   std::int32_t* const local_of = numbers.data();
   node.clear();
-  for (auto* array : {&v0, &v1, &v2}) array->resize(triangle.size());
+  const std::size_t triangles = padded(triangle.size());
+  corners_.assign(3 * triangles, 0);
+  lay_out({&v0, &v1, &v2}, corners_, triangles);
   const auto local = [&](Index v) {
     std::int32_t& number = local_of[at(v)];
     if (number < 0) {
@@ -246,11 +258,12 @@ void MeshCandidates::number_nodes(const TriangleMesh& mesh) {
 
 void MeshCandidates::allocate() {
   const std::size_t nodes = padded(node.size()), triangles = padded(triangle.size());
+  of_nodes_.resize(7 * nodes);
+  lay_out({&x, &y, &z, &node_area, &bx, &by, &bz}, of_nodes_, nodes);
+  of_triangles_.resize(9 * triangles);
+  lay_out({&ax, &ay, &az, &area, &l01, &l12, &l20, &longest, &plane}, of_triangles_, triangles);
   constexpr double far_away = 1e3;  // [m]: squares stay finite and no ball reaches it
-  for (auto* array : {&x, &y, &z}) array->assign(nodes, far_away);
-  for (auto* array : {&node_area, &bx, &by, &bz}) array->resize(nodes);
-  for (auto* array : {&v0, &v1, &v2}) array->resize(triangles, 0);
-  for (auto* array : {&ax, &ay, &az, &plane, &l01, &l12, &l20, &longest, &area}) array->resize(triangles);
+  for (const std::span<double> array : {x, y, z}) std::ranges::fill(array, far_away);
 }
 
 /// From the middle outwards: what is inside the ball comes first, what its rim cuts next, what is outside

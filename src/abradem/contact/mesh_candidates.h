@@ -38,6 +38,13 @@ class MeshCandidates {
  public:
   static constexpr std::size_t kLanes = 8;
 
+  MeshCandidates() = default;
+  MeshCandidates(const MeshCandidates&) = delete;  // the arrays lie in stores of this object
+  MeshCandidates& operator=(const MeshCandidates&) = delete;
+  MeshCandidates(MeshCandidates&&) = default;
+  MeshCandidates& operator=(MeshCandidates&&) = default;
+  ~MeshCandidates() = default;
+
   /// Would an update gather anew (the sphere has left the skin), rather than fetch moved vertices?
   [[nodiscard]] bool stale(const SurfaceView& surface, const Vec3& c, double reach) const noexcept;
 
@@ -91,21 +98,21 @@ class MeshCandidates {
   }
 
   std::vector<Index> node;               ///< mesh vertex of each local node
-  std::vector<double> x, y, z;           ///< node positions, padded [m]
-  std::vector<double> node_area;         ///< third of the area of the triangles around, padded [m^2]
-  std::vector<double> bx, by, bz;        ///< third of their area vectors, padded [m^2]
+  std::span<double> x, y, z;             ///< node positions, padded [m]
+  std::span<double> node_area;           ///< third of the area of the triangles around, padded [m^2]
+  std::span<double> bx, by, bz;          ///< third of their area vectors, padded [m^2]
   std::vector<std::int32_t> star_start;  ///< local triangles around node i: star[star_start[i]] … (CSR)
   std::vector<std::int32_t> star;
   Vec3 mean_normal;                      ///< of all candidates, unit
   Vec3 mean_point;                       ///< of the nodes inside the ball when gathered, by overlap [m]
   double below_plane = 0.0;              ///< no node lies further below the plane through these two [m]
   std::vector<Index> triangle;           ///< mesh triangle of each local triangle
-  std::vector<std::int32_t> v0, v1, v2;  ///< local nodes of each triangle, padded
-  std::vector<double> ax, ay, az;        ///< area vectors, padded [m^2]
-  std::vector<double> plane;             ///< area vector . vertex, padded [m^3]
-  std::vector<double> l01, l12, l20;     ///< squared edge lengths, padded [m^2]
-  std::vector<double> longest;           ///< largest of the three [m^2]
-  std::vector<double> area;              ///< [m^2]
+  std::span<std::int32_t> v0, v1, v2;    ///< local nodes of each triangle, padded
+  std::span<double> ax, ay, az;          ///< area vectors, padded [m^2]
+  std::span<double> plane;               ///< area vector . vertex, padded [m^3]
+  std::span<double> l01, l12, l20;       ///< squared edge lengths, padded [m^2]
+  std::span<double> longest;             ///< largest of the three [m^2]
+  std::span<double> area;                ///< [m^2]
   double longest_edge2 = 0.0;            ///< largest of `longest` [m^2]
 
  private:
@@ -120,6 +127,9 @@ class MeshCandidates {
   void measure_triangles();
   void bound_depth() noexcept;
 
+  // Side by side, in the order of their use: there may be thousands of these objects, most of a few triangles.
+  std::vector<double> of_nodes_, of_triangles_;
+  std::vector<std::int32_t> corners_;
   bool gathered_ = false, nearly_flat_ = false;
   Vec3 built_at_, built_axis_;
   CandidateSkin built_skin_;
