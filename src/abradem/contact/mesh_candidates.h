@@ -77,6 +77,14 @@ class MeshCandidates {
   /// @return whether they fit the mesh
   [[nodiscard]] bool restore(const geometry::TriangleMesh& mesh);
 
+  /// Asks the memory for what a point contact reads.
+  void fetch() const noexcept {
+    for (const double* array : {x.data(), y.data(), z.data(), ax.data(), ay.data(), az.data(), area.data()})
+      __builtin_prefetch(array);
+    for (const std::int32_t* array : {v0.data(), v1.data(), v2.data()}) __builtin_prefetch(array);
+    __builtin_prefetch(triangle.data());
+  }
+
   [[nodiscard]] std::size_t node_count() const noexcept { return node.size(); }
   [[nodiscard]] std::size_t triangle_count() const noexcept { return triangle.size(); }
   [[nodiscard]] std::size_t padded_triangle_count() const noexcept { return v0.size(); }
@@ -103,17 +111,17 @@ class MeshCandidates {
   std::span<double> bx, by, bz;          ///< third of their area vectors, padded [m^2]
   std::vector<std::int32_t> star_start;  ///< local triangles around node i: star[star_start[i]] … (CSR)
   std::vector<std::int32_t> star;
-  Vec3 mean_normal;                      ///< of all candidates, unit
-  Vec3 mean_point;                       ///< of the nodes inside the ball when gathered, by overlap [m]
-  double below_plane = 0.0;              ///< no node lies further below the plane through these two [m]
-  std::vector<Index> triangle;           ///< mesh triangle of each local triangle
-  std::span<std::int32_t> v0, v1, v2;    ///< local nodes of each triangle, padded
-  std::span<double> ax, ay, az;          ///< area vectors, padded [m^2]
-  std::span<double> plane;               ///< area vector . vertex, padded [m^3]
-  std::span<double> l01, l12, l20;       ///< squared edge lengths, padded [m^2]
-  std::span<double> longest;             ///< largest of the three [m^2]
-  std::span<double> area;                ///< [m^2]
-  double longest_edge2 = 0.0;            ///< largest of `longest` [m^2]
+  Vec3 mean_normal;                    ///< of all candidates, unit
+  Vec3 mean_point;                     ///< of the nodes inside the ball when gathered, by overlap [m]
+  double below_plane = 0.0;            ///< no node lies further below the plane through these two [m]
+  std::vector<Index> triangle;         ///< mesh triangle of each local triangle
+  std::span<std::int32_t> v0, v1, v2;  ///< local nodes of each triangle, padded
+  std::span<double> ax, ay, az;        ///< area vectors, padded [m^2]
+  std::span<double> plane;             ///< area vector . vertex, padded [m^3]
+  std::span<double> l01, l12, l20;     ///< squared edge lengths, padded [m^2]
+  std::span<double> longest;           ///< largest of the three [m^2]
+  std::span<double> area;              ///< [m^2]
+  double longest_edge2 = 0.0;          ///< largest of `longest` [m^2]
 
  private:
   void gather(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
@@ -127,7 +135,8 @@ class MeshCandidates {
   void measure_triangles();
   void bound_depth() noexcept;
 
-  // Side by side, in the order of their use: there may be thousands of these objects, most of a few triangles.
+  // Side by side, in the order of their use: there may be thousands of these objects, most of a few
+  // triangles.
   std::vector<double> of_nodes_, of_triangles_;
   std::vector<std::int32_t> corners_;
   bool gathered_ = false, nearly_flat_ = false;

@@ -66,6 +66,9 @@ class PointContactFinder {
   /// `resolved`: set of each candidate triangle, or -1 where it is not overlapped.
   [[nodiscard]] std::span<const int> sets() const noexcept { return found().set; }
 
+  /// Asks the memory for what the next call reads.
+  void fetch() const noexcept { __builtin_prefetch(wake_.data()); }
+
  private:
   void collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip, bool sheet);
   void travel(const MeshCandidates& candidates, const Vec3& c, double R);

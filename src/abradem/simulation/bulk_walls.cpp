@@ -191,8 +191,11 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
       [&](std::size_t part) {
         static thread_local SphereWall::Scratch scratch;
         wear_[part].clear();
-        for (std::size_t k = kPart * part; k < std::min(meshes_.size(), kPart * (part + 1)); ++k)
+        const std::size_t end = std::min(meshes_.size(), kPart * (part + 1));
+        for (std::size_t k = kPart * part; k < end; ++k)
           if (meshes_[k].awake) {
+            if (k + 2 < end) meshes_[k + 2].contact->fetch();
+            if (k + 1 < end) meshes_[k + 1].contact->fetch_arrays();
             if (!around.ploughs) meshes_[k].contact->lend(&scratch);
             if (compute(k, spheres.row[at(meshes_[k].sphere)], around, wear_[part])) deep[part] = 1;
             meshes_[k].contact->lend(nullptr);

@@ -118,6 +118,21 @@ class SphereWall {
     points_.lend(scratch != nullptr ? &scratch->points : nullptr);
   }
 
+  /// Asks the memory for what the next step of a point contact reads: first this object, then, when that is
+  /// there, its arrays.
+  void fetch() const noexcept {
+    const auto* from = reinterpret_cast<const char*>(this);
+    for (const auto* line = from; line < reinterpret_cast<const char*>(&patches_); line += 64)
+      __builtin_prefetch(line);
+  }
+  void fetch_arrays() const noexcept {
+    candidates_.fetch();
+    points_.fetch();
+    for (const Vec3* v :
+         {&touches_.data()->n, &touches_.data()->force.F_t, &memory_.data()->n, &kept_.data()->n})
+      __builtin_prefetch(v);
+  }
+
   /// First part of the search: settles what the last candidates still owe the wall. Where they owe it
   /// elements (owes_elements), in the order of particles; else it touches nothing but this object.
   /// @param c,v position and velocity of the sphere in the wall's frame
@@ -333,33 +348,35 @@ class SphereWall {
   void note_nodes();
   [[nodiscard]] bool inside(std::size_t t) const noexcept;
 
-  contact::MeshCandidates candidates_;
-  contact::PatchEvaluator patches_;
-  contact::PointContactFinder points_;
+  // What a step needs of a point contact stands in front: of thousands of these objects it is all that is
+  // read.
   Scratch* scratch_ = nullptr;
-  std::unique_ptr<Scratch> own_;
-  std::vector<Touch> touches_;
-  std::vector<Spot> spots_;
-  std::vector<Memory> memory_, kept_;
-  std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
-  bool stale_ = true;                 // the candidates were gathered anew in this step
+  bool stale_ = true;  // the candidates were gathered anew in this step
   double reach_ = 0.0;
   contact::CandidateSkin skin_;
   Vec3 noted_at_;
-  Vec3 axis_;  // towards the surface, from the last contact
+  Vec3 axis_;     // towards the surface, from the last contact
+  Vec3 centre_;   // of the last search
+  Vec3 rolling_;  // resistance to rolling in the last step, world frame [N m]
   double centroid_volume_ = 0.0;
+  static constexpr std::uint64_t kNeverNoted = ~std::uint64_t{0};
+  std::uint64_t noted_revision_ = kNeverNoted;  // of the surface, when its nodes were last noted
+  std::vector<Touch> touches_;
+  std::vector<Memory> memory_, kept_;
+  std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
+  std::vector<Vec3> noted_;           // of each candidate node: where it was when last noted
   contact::Tip tip_;
-  Vec3 centre_;                                 // of the last search
-  Vec3 rolling_;                                // resistance to rolling in the last step, world frame [N m]
+  contact::MeshCandidates candidates_;
+  contact::PointContactFinder points_;
+  contact::PatchEvaluator patches_;  // from here on of no use to them
+  std::unique_ptr<Scratch> own_;
+  std::vector<Spot> spots_;
   double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
   double tip_area_ = 0.0;                       // of the tip under pressure, of late [m^2]
   wear::RidgeBuilder ridges_;
-  double unpiled_ = 0.0, slid_ = 0.0;  // since the last pile [m^3, m]
-  std::vector<Pressing> ploughing_;    // the last contacts
-  static constexpr std::uint64_t kNeverNoted = ~std::uint64_t{0};
-  std::uint64_t noted_revision_ = kNeverNoted;        // of the surface, when its nodes were last noted
-  std::vector<Vec3> noted_;                           // of each candidate node: where it was when last noted
-  std::vector<contact::kernels::NodeMotion> motion_;  // since then, padded
+  double unpiled_ = 0.0, slid_ = 0.0;                 // since the last pile [m^3, m]
+  std::vector<Pressing> ploughing_;                   // the last contacts
+  std::vector<contact::kernels::NodeMotion> motion_;  // of the nodes noted, since then, padded
   std::vector<double> terms_;                         // scratch
 };
 
