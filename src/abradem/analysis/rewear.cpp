@@ -80,6 +80,7 @@ Reworn rewear(const Recorded& recorded, const std::vector<LawChange>& changes) {
     sums.finnie = finnie ? *finnie * sums.finnie
                          : shared(own.finnie, region_sums.means.finnie, region_sums.classes.finnie);
     sums.oka = oka ? *oka * sums.oka : shared(own.oka, region_sums.means.oka, region_sums.classes.oka);
+    if (!after.expression) sums.expression = 0.0;  // else it is the run's own
     const wear::MechanismVolumes v = wear::mapped_volumes(after, sums);
     RewornElement& element = elements[{e.wall, e.element}];
     element.wall = e.wall, element.element = e.element, element.region = e.region, element.area = e.area;

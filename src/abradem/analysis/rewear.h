@@ -28,7 +28,7 @@ struct Recorded {
   std::vector<RecordedImpacts> impacts;
 };
 
-/// How a material wore a wall in the run, and how it is to wear it.
+/// How a material wore a wall in the run, and how it is to wear it. An expression is left out or stays.
 struct LawChange {
   int wall = 0, abrader = 0;
   wear::Laws before, after;

@@ -29,7 +29,7 @@ using simulation::Setup;
 using simulation::WearLaw;
 using simulation::WearSetup;
 
-constexpr std::array kLaws{"archard"sv, "shear_work"sv, "finnie"sv, "oka"sv, "impact_energy"sv};
+constexpr auto& kLaws = wear::kMechanismNames;  // in the order of WearLaw
 
 std::string pair_of(const WearSetup& w) { return w.abrader + "/" + w.worn; }
 
@@ -134,10 +134,17 @@ std::vector<analysis::LawChange> changes_of(const Setup& before, const Setup& af
   std::vector<analysis::LawChange> changes;
   for (std::size_t w = 0; w < before.walls.size(); ++w)
     for (std::size_t k = 0; k < before.wear.size(); ++k)
-      if (before.wear[k].worn == before.walls[w].material)
+      if (before.wear[k].worn == before.walls[w].material) {
         changes.push_back({static_cast<int>(w), index(before.wear[k].abrader),
                            simulation::laws_of(before, before.wear[k], 1.0),
                            simulation::laws_of(after, after.wear[k], 1.0)});
+        const auto &was = changes.back().before.expression, &is = changes.back().after.expression;
+        if (is && !(was && is->same_as(*was)))
+          throw InputError(fmt::format(
+              "wear \"{}\": the record of a run has no sums that another expression could be worked "
+              "out from; run the case with it",
+              pair_of(after.wear[k])));
+      }
   return changes;
 }
 

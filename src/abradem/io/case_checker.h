@@ -52,6 +52,7 @@ class Checker {
   // wear
   void check_wear_pairs();
   void check_wear_laws();
+  void check_expression(const simulation::WearSetup& w, const std::string& path);
   void check_regions();
   void check_ploughing();
   void check_acceleration();

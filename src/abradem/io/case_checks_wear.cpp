@@ -8,6 +8,7 @@
 
 #include "abradem/core/suggest.h"
 #include "abradem/io/case_checker.h"
+#include "abradem/simulation/pair_laws.h"
 
 namespace abradem::io {
 
@@ -61,12 +62,42 @@ void Checker::check_wear_laws() {
     if (setup_.run.method == Method::quasi_static && good("run.method") &&
         (has(WearLaw::finnie) || has(WearLaw::oka) || has(WearLaw::impact_energy)))
       error(path + ".law", "a balance of forces has no impacts: set run.method = \"dynamic\"");
+    if (has(WearLaw::expression)) check_expression(w, path);
     if (setup_.ploughing && setup_.ploughing->removed_fraction < 1.0)
       error(path + ".law", "[ploughing] shares out what Archard's law removes; use law = \"archard\"");
     for (const ParticleSetup& p : setup_.particles)
       if (p.guide != Guide::none && p.material == w.worn)
         error(path + ".law",
               fmt::format("the tip of '{}' wears by Archard's law alone; use law = \"archard\"", p.name));
+  }
+}
+
+/// Whatever is wrong with an expression itself, and what it asks of the run.
+void Checker::check_expression(const WearSetup& w, const std::string& path) {
+  const std::string key = path + ".expression";
+  if (!good(key) || !good(path + ".constants") || !good("contact")) return;
+  try {
+    const auto expression = expression_of(setup_, w);
+    if (setup_.run.method == Method::quasi_static && good("run.method") &&
+        (expression->by_impact() || expression->names(wear::Symbol::normal_work)))
+      error(key, "a balance of forces has no impacts and no normal_work: set run.method = \"dynamic\"");
+    if (!expression->proportional_to_step())
+      note(key,
+           "half a step does not wear half as much: the volume depends on the time step. Each term wants one "
+           "of "
+           "slip, shear_work, normal_work or dt as a factor");
+    for (const core::NamedQuantity& c : w.constants)
+      if (!expression->names(c.name))
+        note(path + ".constants", fmt::format("the expression does not name '{}'", c.name));
+  } catch (const wear::ExpressionError& wrong) {
+    Place place = places_.of(key);
+    // The caret goes to the very character: one past the opening quote, one column per code point.
+    if (wrong.position <= w.expression.size()) {
+      const std::string_view before = std::string_view(w.expression).substr(0, wrong.position);
+      place.column +=
+          1 + static_cast<int>(std::ranges::count_if(before, [](char c) { return (c & 0xC0) != 0x80; }));
+    }
+    problems_.error(place, wrong.what());
   }
 }
 

@@ -41,8 +41,7 @@ class Columns {
 };
 
 std::vector<std::string> with_laws(std::vector<std::string> columns) {
-  columns.insert(columns.end(),
-                 {"archard_mm3", "shear_work_mm3", "finnie_mm3", "oka_mm3", "impact_energy_mm3"});
+  for (const std::string_view law : wear::kMechanismNames) columns.push_back(std::string(law) + "_mm3");
   return columns;
 }
 
@@ -68,7 +67,7 @@ analysis::Recorded read_recorded_wear(const std::filesystem::path& tables) {
                area = t["area_mm2"], sliding = t["force_sliding_J"], shear = t["shear_work_J"],
                normal = t["normal_work_J"], mass = t["impact_mass_kg"], angle = t["angle_mean_deg"],
                speed = t["speed_rms_m_per_s"], diameter = t["diameter_mean_mm"], finnie = t["finnie_mm3"],
-               oka = t["oka_mm3"];
+               oka = t["oka_mm3"], expression = t["expression_mm3"];
     for (std::size_t r = 0; r < t.rows(); ++r) {
       analysis::RecordedElement e{whole(wall[r], integrals),
                                   whole(abrader[r], integrals),
@@ -83,6 +82,7 @@ analysis::Recorded read_recorded_wear(const std::filesystem::path& tables) {
       if (mass[r] > 0.0) e.impact = {speed[r], angle[r] / kDegrees, mass[r], diameter[r] / kMm};
       e.sums.finnie = finnie[r] / kMm3;
       e.sums.oka = oka[r] / kMm3;
+      e.sums.expression = expression[r] / kMm3;
       recorded.elements.push_back(e);
     }
   }

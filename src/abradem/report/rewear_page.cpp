@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array kLaws{"archard"sv, "shear_work"sv, "finnie"sv, "oka"sv, "impact_energy"sv};
+constexpr auto& kLaws = wear::kMechanismNames;
 constexpr double kMm3 = 1e9, kUm = 1e6;
 constexpr std::size_t kWorst = 10;
 

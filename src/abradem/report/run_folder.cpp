@@ -43,12 +43,18 @@ constexpr std::array kWalls = {"time_s"sv,      "wall"sv,        "force_x_N"sv,
                                "force_y_N"sv,   "force_z_N"sv,   "torque_x_Nm"sv,
                                "torque_y_Nm"sv, "torque_z_Nm"sv, "power_W"sv};
 constexpr std::array kLaws = {"time_s"sv,     "wall"sv,    "archard_mm3"sv,       "shear_work_mm3"sv,
-                              "finnie_mm3"sv, "oka_mm3"sv, "impact_energy_mm3"sv, "impacts"sv};
+                              "finnie_mm3"sv, "oka_mm3"sv, "impact_energy_mm3"sv, "expression_mm3"sv,
+                              "impacts"sv};
 constexpr std::array kImpacts = {
-    "wall"sv,       "impacts"sv, "mass_kg"sv, "angle_mean_deg"sv, "speed_mean_m_per_s"sv,
-    "finnie_mm3"sv, "oka_mm3"sv};
-constexpr std::array kErosion = {"wall"sv,          "abrader"sv,           "angle_deg"sv,
-                                 "speed_m_per_s"sv, "finnie_mm3_per_kg"sv, "oka_mm3_per_kg"sv};
+    "wall"sv,       "impacts"sv, "mass_kg"sv,       "angle_mean_deg"sv, "speed_mean_m_per_s"sv,
+    "finnie_mm3"sv, "oka_mm3"sv, "expression_mm3"sv};
+constexpr std::array kErosion = {"wall"sv,
+                                 "abrader"sv,
+                                 "angle_deg"sv,
+                                 "speed_m_per_s"sv,
+                                 "finnie_mm3_per_kg"sv,
+                                 "oka_mm3_per_kg"sv,
+                                 "expression_mm3_per_kg"sv};
 
 constexpr std::array kWear = {"element"sv,
                               "x_mm"sv,

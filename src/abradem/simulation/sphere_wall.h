@@ -69,6 +69,7 @@ class SphereWall {
     int part = 0;                ///< patch or flat set that it stands for
     int nearest = -1;            ///< point contacts: candidate triangle that holds the nearest point
     bool of_point = false;       ///< a point contact, not a patch
+    double damper_power = 0.0;   ///< of the normal damper, of a pair with options in this step [W]
     double weight = 1.0;  ///< `automatic`: share of the rule in the force, which all forces here have [-]
     contact::ContactForce force;
     int memory = -1;  ///< place of its memory in this step; -1: none
@@ -129,6 +130,10 @@ class SphereWall {
       wear::MapSample sample;
       sample.work = work_of(touch, slip_of(touch), mass, pair, dt);
       wear::add_work(laws, sample.work, sample.volumes);
+      if (laws.expression)
+        wear::add_expression(laws, sample.work,
+                             {norm(touch.force.F_t), touch.force.v_t, dt, R, mass, touch.weight},
+                             sample.volumes);
       if (const Memory* memory = memory_of(touch); memory != nullptr && memory->striking) {
         sample.strikes = true;
         sample.impact = {memory->speed, memory->angle, mass, 2.0 * R};
