@@ -100,6 +100,17 @@ TEST(Expression, GoesThroughTablesReportAndRewear) {
       run_program("rewear chute --set 'wear.\"ore/steel\".expression=2*C*shear_work'", folder);
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_TRUE(contains(other.err, "another expression"));
+
+  // Tables of a version that knew no expressions.
+  for (const char* name : {"wear_by_law.csv", "wear_integrals.csv"}) {
+    const fs::path file = folder / "chute/tables" / name;
+    std::string text = read_file(file);
+    const std::size_t at = text.find("expression_mm3");
+    ASSERT_NE(at, std::string::npos);
+    write_file(file, text.replace(at, 14, "other_mm3"));
+  }
+  EXPECT_EQ(run_program("report chute", folder).exit_code, 0);
+  EXPECT_EQ(rewear("--name old").second, 0.0);
 }
 
 TEST(Expression, IsRefusedBeforeTheRunOrStopsIt) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -33,6 +34,11 @@ class Columns {
     } catch (const InputError& error) {
       throw IoError(fmt::format("{}: {}", path_.string(), error.what()));
     }
+  }
+  /// Zeros where an earlier version wrote the table.
+  [[nodiscard]] std::vector<double> if_there(const std::string& name) const {
+    return std::ranges::find(table_.columns, name) == table_.columns.end() ? std::vector<double>(rows(), 0.0)
+                                                                           : table_.column(name);
   }
 
  private:
@@ -67,7 +73,7 @@ analysis::Recorded read_recorded_wear(const std::filesystem::path& tables) {
                area = t["area_mm2"], sliding = t["force_sliding_J"], shear = t["shear_work_J"],
                normal = t["normal_work_J"], mass = t["impact_mass_kg"], angle = t["angle_mean_deg"],
                speed = t["speed_rms_m_per_s"], diameter = t["diameter_mean_mm"], finnie = t["finnie_mm3"],
-               oka = t["oka_mm3"], expression = t["expression_mm3"];
+               oka = t["oka_mm3"], expression = t.if_there("expression_mm3");
     for (std::size_t r = 0; r < t.rows(); ++r) {
       analysis::RecordedElement e{whole(wall[r], integrals),
                                   whole(abrader[r], integrals),

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -43,18 +44,12 @@ constexpr std::array kWalls = {"time_s"sv,      "wall"sv,        "force_x_N"sv,
                                "force_y_N"sv,   "force_z_N"sv,   "torque_x_Nm"sv,
                                "torque_y_Nm"sv, "torque_z_Nm"sv, "power_W"sv};
 constexpr std::array kLaws = {"time_s"sv,     "wall"sv,    "archard_mm3"sv,       "shear_work_mm3"sv,
-                              "finnie_mm3"sv, "oka_mm3"sv, "impact_energy_mm3"sv, "expression_mm3"sv,
-                              "impacts"sv};
+                              "finnie_mm3"sv, "oka_mm3"sv, "impact_energy_mm3"sv, "impacts"sv};
 constexpr std::array kImpacts = {
-    "wall"sv,       "impacts"sv, "mass_kg"sv,       "angle_mean_deg"sv, "speed_mean_m_per_s"sv,
-    "finnie_mm3"sv, "oka_mm3"sv, "expression_mm3"sv};
-constexpr std::array kErosion = {"wall"sv,
-                                 "abrader"sv,
-                                 "angle_deg"sv,
-                                 "speed_m_per_s"sv,
-                                 "finnie_mm3_per_kg"sv,
-                                 "oka_mm3_per_kg"sv,
-                                 "expression_mm3_per_kg"sv};
+    "wall"sv,       "impacts"sv, "mass_kg"sv, "angle_mean_deg"sv, "speed_mean_m_per_s"sv,
+    "finnie_mm3"sv, "oka_mm3"sv};
+constexpr std::array kErosion = {"wall"sv,          "abrader"sv,           "angle_deg"sv,
+                                 "speed_m_per_s"sv, "finnie_mm3_per_kg"sv, "oka_mm3_per_kg"sv};
 
 constexpr std::array kWear = {"element"sv,
                               "x_mm"sv,
@@ -71,12 +66,17 @@ constexpr std::array kWear = {"element"sv,
                               "impact_energy_J"sv,
                               "peak_pressure_MPa"sv};
 
-/// A table that only some runs write.
+/// A table that only some runs write. @param later a column that earlier versions do not write: zeros then
 std::optional<Table> read_if_there(const std::filesystem::path& file,
-                                   std::span<const std::string_view> required) {
+                                   std::span<const std::string_view> required, std::string_view later = {}) {
   std::error_code code;
   if (!std::filesystem::exists(file, code)) return std::nullopt;
-  return read_table(file, required);
+  Table table = read_table(file, required);
+  if (!later.empty() && std::ranges::find(table.names, later) == table.names.end()) {
+    table.columns.emplace_back(table.rows(), 0.0);
+    table.names.emplace_back(later);
+  }
+  return table;
 }
 
 std::string read_case(const std::filesystem::path& file) {
@@ -169,9 +169,9 @@ RunFolder read_run_folder(const std::filesystem::path& folder) {
   run.tip_profile = read_if_there(tables / "tip_profile.csv", kTipProfile);
   run.particles = read_if_there(tables / "particles.csv", kParticles);
   run.walls = read_if_there(tables / "walls.csv", kWalls);
-  run.laws = read_if_there(tables / "wear_by_law.csv", kLaws);
-  run.impacts = read_if_there(tables / "impacts.csv", kImpacts);
-  run.erosion = read_if_there(tables / "erosion.csv", kErosion);
+  run.laws = read_if_there(tables / "wear_by_law.csv", kLaws, "expression_mm3");
+  run.impacts = read_if_there(tables / "impacts.csv", kImpacts, "expression_mm3");
+  run.erosion = read_if_there(tables / "erosion.csv", kErosion, "expression_mm3_per_kg");
   if (std::filesystem::exists(tables / "wear_integrals.csv", code))
     run.wear = read_table(tables / "wear.csv", kWear);
   read_surface(run);

@@ -70,7 +70,12 @@ wear::Laws laws_of(const Setup& setup, const WearSetup& w, double acceleration) 
     laws.oka = oka;
   }
   if (has(WearLaw::expression)) {
-    laws.expression = expression_of(setup, w);
+    try {
+      laws.expression = expression_of(setup, w);
+    } catch (const wear::ExpressionError& error) {
+      throw wear::ExpressionError(error.position,
+                                  fmt::format("wear \"{}/{}\": {}", w.abrader, w.worn, error.what()));
+    }
     laws.of_expression = acceleration;
   }
   return laws;
