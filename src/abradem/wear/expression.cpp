@@ -321,8 +321,8 @@ void Expression::read() {
         fmt::format("the expression has {} results; a ',' belongs between arguments of a function", results));
 }
 
-/// In other units of mass, length and time the volume must be the same, whatever the contact does. Whether a
-/// step is so much of it follows alike.
+/// In other units of mass, length and time the volume must be the same, whatever the contact does. The units
+/// are powers of two apart, so that round-off is the same in all.
 void Expression::check_unit() const {
   Program trial(*this, false);
   for (double& c : trial.constants) c = c == 0.0 ? 1.0 : c;  // a coefficient of 0 has a unit too
@@ -336,12 +336,12 @@ void Expression::check_unit() const {
       trial.constants[k] = constants[k] * scale(constants_[k].dimension);
     return trial.parser.Eval();
   };
-  constexpr double kSame = 1e-6;
+  constexpr double kSame = 1e-6, kLeast = 1e-200, kMost = 1e200;  // beyond, doubles run out of bits or range
   std::optional<std::array<double, 3>> powers;
   for (std::size_t n = 0; n < kSamples; ++n) {
     const SymbolValues v = sample(n);
     const double here = value(v, 1.0, 1.0, 1.0);
-    if (!std::isfinite(here)) continue;
+    if (!(here == 0.0 || (std::abs(here) > kLeast && std::abs(here) < kMost))) continue;
     for (const double factor : {4.0, 1.0 / 4096.0}) {
       std::array<double, 3> found{};
       bool nowhere = here == 0.0, mixed = false;
@@ -349,7 +349,7 @@ void Expression::check_unit() const {
         const double there = value(v, k == 0 ? factor : 1.0, k == 1 ? factor : 1.0, k == 2 ? factor : 1.0),
                      ratio = there / here;
         if (here == 0.0)
-          mixed = mixed || there != 0.0;
+          mixed = mixed || std::abs(there) > kLeast;
         else if (!(ratio > 0.0) || !std::isfinite(ratio))
           mixed = true;
         else
@@ -384,7 +384,8 @@ void Expression::check_unit() const {
               : fmt::format("a quantity in kg^{:.3g} m^{:.3g} s^{:.3g}", mass, length, time)));
 }
 
-/// Is it a volume at all, and also where every contact passes: while it sticks, and where it ends?
+/// Is it a volume at all, and also where every contact passes: while it sticks, and where it ends? And is
+/// that of half a step half as much?
 void Expression::check_corners() {
   Program& p = *program_;
   const auto good = [&](const std::vector<Symbol>& zero) {

@@ -142,6 +142,10 @@ TEST(Expression, HasTheUnitOfAVolume) {
   EXPECT_TRUE(t.of("Fn > F0 ? k * (Fn - F0) * slip : 0").proportional_to_step());
   EXPECT_TRUE(t.of("0 * k * Fn * slip").proportional_to_step());
   EXPECT_FALSE(t.of("k * Fn * a").proportional_to_step());
+  // Values that a double can hardly hold, or not at all, say nothing about the unit.
+  EXPECT_TRUE(t.of("k * Fn * slip * exp(-E / p_max)").proportional_to_step());
+  EXPECT_TRUE(t.of("k * Fn * slip * (Fn / F0)^40").proportional_to_step());
+  EXPECT_TRUE(t.of("k * Fn * slip * (sqrt(a^2 + R^2) - R) / R").proportional_to_step());
   EXPECT_TRUE(t.of("k * m * v^2").proportional_to_step());
   // A coefficient of 0 has a unit too.
   expect_refused("c * Fn", std::string::npos, "expected a volume", {constant("c", "0 1/Pa")});
