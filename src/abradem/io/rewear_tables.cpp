@@ -59,7 +59,8 @@ void add_laws(std::vector<double>& row, const wear::MechanismVolumes& volumes) {
 
 analysis::Recorded read_recorded_wear(const std::filesystem::path& tables) {
   const std::filesystem::path integrals = tables / "wear_integrals.csv",
-                              spectrum = tables / "impact_spectrum.csv";
+                              spectrum = tables / "impact_spectrum.csv",
+                              sliding_spectrum = tables / "sliding_spectrum.csv";
   std::error_code code;
   if (!std::filesystem::exists(integrals, code))
     throw InputError(fmt::format(
@@ -94,12 +95,26 @@ analysis::Recorded read_recorded_wear(const std::filesystem::path& tables) {
   }
   const Columns t(spectrum);
   const auto wall = t["wall"], abrader = t["abrader"], region = t["region"], mass = t["mass_kg"],
-             angle = t["angle_mean_deg"], speed = t["speed_rms_m_per_s"], diameter = t["diameter_mean_mm"];
+             angle = t["angle_mean_deg"], speed = t["speed_rms_m_per_s"], diameter = t["diameter_mean_mm"],
+             count = t["impacts"];
   for (std::size_t r = 0; r < t.rows(); ++r)
     recorded.impacts.push_back({whole(wall[r], spectrum),
                                 whole(abrader[r], spectrum),
                                 whole(region[r], spectrum),
-                                {speed[r], angle[r] / kDegrees, mass[r], diameter[r] / kMm}});
+                                {speed[r], angle[r] / kDegrees, mass[r], diameter[r] / kMm},
+                                count[r]});
+  {
+    const Columns s(sliding_spectrum);
+    const auto at_wall = s["wall"], by = s["abrader"], in = s["region"], time = s["time_s"],
+               slow = s["speed_low_m_per_s"], fast = s["speed_high_m_per_s"], way = s["sliding_m"],
+               force_sliding = s["force_sliding_J"], work = s["shear_work_J"];
+    for (std::size_t r = 0; r < s.rows(); ++r)
+      recorded.sliding.push_back({whole(at_wall[r], sliding_spectrum),
+                                  whole(by[r], sliding_spectrum),
+                                  whole(in[r], sliding_spectrum),
+                                  {time[r], way[r], force_sliding[r], work[r]},
+                                  0.5 * (slow[r] + fast[r])});
+  }
   return recorded;
 }
 
