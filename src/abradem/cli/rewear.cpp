@@ -90,7 +90,16 @@ Setup changed(const Setup& before, const RewearArguments& a, const fs::path& fil
   if (!a.pair.empty() && a.law.empty()) throw InputError("--pair says which pair --law is for; give --law");
   if (!a.law.empty())
     for (WearSetup& w : setup.wear)
-      if (a.pair.empty() || pair_of(w) == a.pair) w.laws = laws_named(a.law);
+      if (a.pair.empty() || pair_of(w) == a.pair) {
+        w.laws = laws_named(a.law);
+        const bool given = std::ranges::any_of(
+            a.overrides, [](const std::string& o) { return o.find(".expression") != std::string::npos; });
+        if (std::ranges::find(w.laws, WearLaw::expression) != w.laws.end() && w.expression.empty() && !given)
+          throw InputError(fmt::format(
+              "wear \"{0}\": the run has no expression for it; add --set 'wear.\"{0}\".expression=k * "
+              "Fn * slip' and its constants",
+              pair_of(w)));
+      }
   Setup after =
       io::parse_case(io::resolved_case(setup), file.string(), file.parent_path(), a.overrides).setup;
   for (const WearSetup& w : after.wear) check_coefficients(w);
