@@ -49,6 +49,6 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # what the program links
   # What find_package(abradem) needs besides; whoever only runs the program can do without.
-  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, libfmt-dev, zlib1g-dev")
+  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, libfmt-dev, libmuparser-dev, zlib1g-dev")
   include(CPack)
 endif()

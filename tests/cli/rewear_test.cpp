@@ -145,6 +145,7 @@ TEST(Rewear, RefusesWhatItCannotDo) {
   };
   refused("run --law finie", "did you mean 'finnie'?");
   refused("run --law shear_work", "shear_work_coefficient=0.001 mm^3/J");
+  refused("run --law expression", "the run has no expression");
   refused("run --pair ore/ore --law archard", "no such [wear] pair");
   refused("run --pair ore/steel", "give --law");
   refused("run --set run.end=1s", "keys of [wear] alone");

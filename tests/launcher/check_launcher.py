@@ -18,7 +18,7 @@ SOURCE = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else pathl
 REAL_TOOLS = ["awk", "bash", "cat", "chmod", "date", "dirname", "env", "find", "flock", "grep", "mkdir", "mktemp",
               "mv", "nproc", "readlink", "rm", "sed", "sh", "sleep", "sort", "tail", "touch", "tr"]
 ALL = ["g++", "cmake", "ninja-build", "libfmt-dev", "libboost-dev", "libeigen3-dev", "nlohmann-json3-dev",
-       "zlib1g-dev", "libtomlplusplus-dev", "libcli11-dev"]
+       "libmuparser-dev", "zlib1g-dev", "libtomlplusplus-dev", "libcli11-dev"]
 # "Builds" a program that prints its folder and its arguments, and returns 7 when the first is `fail`.
 CMAKE = r"""
 printf 'cmake %s\n' "$*" >>"$LOG"

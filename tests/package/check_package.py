@@ -68,7 +68,7 @@ def check_deb(build, scratch):
     if fields["Package"] != "abradem" or fields["Architecture"] != machine:
         problems.append(f"fields: {fields}")
     if has_program(build):
-        problems += [f"Depends lacks {library}: {fields['Depends']}" for library in ("libc6", "libstdc++6", "libfmt")
+        problems += [f"Depends lacks {library}: {fields['Depends']}" for library in ("libc6", "libstdc++6", "libfmt", "libmuparser")
                      if library not in fields["Depends"]]
     if problems:
         sys.exit("\n".join(problems))

@@ -16,7 +16,7 @@ import tempfile
 
 ROOMS = ["core", "geometry", "material", "contact", "wear", "simulation", "analysis", "study", "io", "report",
          "cli"]
-HEAVY = ("toml++/", "CLI/", "nlohmann/", "boost/", "Eigen/")  # seconds of compile time each
+HEAVY = ("toml++/", "CLI/", "nlohmann/", "boost/", "Eigen/", "muParser")  # seconds of compile time each
 LICENCE = "// SPDX-License-Identifier: BSD-3-Clause"
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "abradem/core/error.h"
 #include "abradem/geometry/generators.h"
 #include "abradem/io/case_file.h"
 #include "abradem/simulation/simulation.h"
@@ -84,12 +85,71 @@ TEST(WearMaps, OfOneImpact) {
   }
 }
 
+/// Head on by laws beside Hertz-Mindlin: what the damper takes is what the ball has lost; of JKR's also the
+/// work of its hysteresis, 7.09 (w^5 R^4 / E^2)^(1/3) [Thornton & Ning 1998], which is not the damper's.
+TEST(WearMaps, NormalWorkOfOtherLaws) {
+  constexpr double kSpeed = 0.1, kDense = 1e-9, w = 5.0;
+  enum class Where { mesh, named_on_plane, grain_on_plane };
+  for (const auto& [law, name] : {std::pair{Cohesion::none, "linear"}, std::pair{Cohesion::sjkr, "sjkr"},
+                                  std::pair{Cohesion::jkr, "jkr"}})
+    for (const double e : {0.5, 0.8}) {
+      WorstError error(std::string(name) + ", e = " + std::to_string(e).substr(0, 3));
+      for (const Where where : {Where::mesh, Where::named_on_plane, Where::grain_on_plane}) {
+        SphereOnMesh scene = on_plate(3e-3, ContactRule::resolved);
+        scene.shear_modulus = 0.1e9;
+        scene.velocity = {0.0, 0.0, -kSpeed};
+        scene.restitution = e;
+        scene.end = 8e-4;
+        simulation::Setup setup = scene.setup();
+        ContactSetup& contact = setup.contacts[0];
+        contact.cohesion = law;
+        contact.cohesion_energy_density = 2e5;
+        contact.work_of_adhesion = w;
+        if (law == Cohesion::none) contact.law = ContactLaw::linear, contact.normal_stiffness = 1e5;
+        WearSetup wear{.abrader = "ball", .worn = "wall"};
+        wear.laws = {WearLaw::impact_energy};
+        wear.normal_energy_coefficient = kDense;
+        setup.wear = {wear};
+        setup.output.maps = Maps::on;
+        if (where != Where::mesh) setup.walls[0].mesh.shape = MeshShape::plane;
+        if (where == Where::grain_on_plane) {
+          InsertionSetup grain;
+          grain.name = "grain";
+          grain.material = "ball";
+          grain.placed = {{scene.position, scene.radius, scene.velocity}};
+          setup.insertions = {grain};
+          setup.particles.clear();
+          setup.contacts.push_back({"ball", "ball", e, 0.0, 0.0});
+        }
+        Simulation run(setup, [&](const MeshSetup&, std::uint64_t) { return scene.mesh; });
+        while (!run.finished()) run.step();
+        const double v = where == Where::grain_on_plane ? run.bulk()->spheres().row[0].velocity().z
+                                                        : run.particles().velocity[0].z;
+        const double m = scene.mass(), energy = 0.5 * m * kSpeed * kSpeed;
+        ASSERT_GT(v, 0.0) << name << ": it has not parted";
+        double expected = energy - 0.5 * m * v * v;
+        if (law == Cohesion::none) expected = energy * (1.0 - e * e);
+        if (law == Cohesion::jkr) {
+          const double R = scene.radius, E = scene.pair().E_eff;
+          expected -= 7.09 * std::cbrt(std::pow(w, 5) * std::pow(R, 4) / (E * E));
+        }
+        const double lost =
+            run.law_volumes(0)[static_cast<std::size_t>(wear::Mechanism::impact_energy)] / kDense;
+        EXPECT_LT(error.note(std::abs(lost - expected) / energy), 0.005) << static_cast<int>(where);
+        if (where == Where::mesh) {
+          EXPECT_NEAR(sum_of(*run.map_of(0)).normal_work / lost, 1.0, 1e-12);
+        }
+      }
+    }
+}
+
 /// A slide: the sums over the elements are those of the contact, whatever the mesh.
 TEST(WearMaps, OfASlideAddUpToTheContact) {
   constexpr double kMu = 0.2;
   for (const auto& [edge, contact] :
        {std::pair{0.1e-3, ContactRule::patch}, std::pair{0.1e-3, ContactRule::per_triangle},
-        std::pair{0.3e-3, ContactRule::resolved}, std::pair{3e-3, ContactRule::resolved}}) {
+        std::pair{0.3e-3, ContactRule::resolved}, std::pair{3e-3, ContactRule::resolved},
+        std::pair{0.1e-3, ContactRule::automatic}, std::pair{3e-3, ContactRule::automatic}}) {
     SphereOnMesh scene = on_plate(edge, contact);
     scene.guided = true;
     scene.friction = kMu;
@@ -149,6 +209,71 @@ simulation::Setup chute() {
   setup.walls[0].mesh.size = 10e-3;
   setup.walls.resize(1);
   return setup;
+}
+
+/// Two planes at an angle, of triangles between fine and coarse, so that `auto` takes both rules at once and
+/// shares each contact: the shares of the map add up all the same, and the wear closes.
+TEST(WearMaps, OfContactsThatTwoRulesShare) {
+  SphereOnMesh scene = on_plate(0.1e-3, ContactRule::automatic);
+  scene.mesh = geometry::make_plate(2e-3, 2e-3, 0.18e-3, 1);
+  for (Vec3& x : scene.mesh.vertices) x.z = 0.2 * std::abs(x.x);
+  scene.position = {0.0, 0.0, 3.001e-3 * std::sqrt(1.04)};
+  scene.friction = 0.3;
+  scene.guided = true;
+  scene.load = {0.0, 0.0, -4.0};
+  scene.motion.kind = MotionKind::translation;
+  scene.motion.velocity = {0.0, -0.5, 0.0};
+  scene.deformation = DeformationRule::conserving;
+  scene.end = 4e-4;
+  simulation::Setup setup = scene.setup();
+  setup.wear = {{"ball", "wall", 1e-12}};
+  setup.output.maps = Maps::on;
+  Simulation run(setup, [&](const MeshSetup&, std::uint64_t) { return scene.mesh; });
+  double force_sliding = 0.0, work = 0.0, sliding = 0.0;
+  int shared = 0, both = 0;
+  while (!run.finished()) {
+    run.step();
+    const auto& touches = run.contact(0, 0).touches();
+    for (const SphereWall::Touch& t : touches) {
+      force_sliding += std::max(t.force.F_n, 0.0) * t.force.slip;
+      work += norm(t.force.F_t) * t.force.slip;
+      sliding += t.weight * t.force.slip;
+      shared += t.weight < 1.0;
+    }
+    both += std::ranges::any_of(touches, &SphereWall::Touch::of_point) &&
+            !std::ranges::all_of(touches, &SphereWall::Touch::of_point);
+  }
+  EXPECT_GT(both, 100);
+  EXPECT_GT(shared, 200);
+  const WearMap::Element sum = sum_of(*run.map_of(0));
+  EXPECT_GT(sliding, 1e-5);
+  EXPECT_NEAR(sum.force_sliding / force_sliding, 1.0, 1e-12);
+  EXPECT_NEAR(sum.shear_work / work, 1.0, 1e-12);
+  EXPECT_NEAR(sum.sliding / sliding, 1.0, 1e-12);
+  EXPECT_NEAR(1e-12 * sum.force_sliding / run.law_volume(), 1.0, 1e-12);
+  const Ledger ledger = run.ledger();
+  EXPECT_LT(ledger.residual, 1e-9);
+  EXPECT_NEAR(ledger.kappa, 1.0, 1e-9);
+}
+
+/// What ploughing moves aside has no map, and a case that asks for one is told so.
+TEST(WearMaps, AreRefusedWithPloughing) {
+  PinOnDisc pin;
+  simulation::Setup setup = pin.setup();
+  setup.ploughing = PloughingSetup{.removed_fraction = 0.6};
+  setup.output.maps = Maps::on;
+  try {
+    const Simulation run(setup);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "output.maps: what [ploughing] moves aside has no map; use maps = \"off\"");
+  }
+  setup.output.maps = Maps::automatic;
+  EXPECT_EQ(Simulation(setup).map_of(0), nullptr);
+  setup.ploughing->removed_fraction = 1.0;  // nothing is moved aside
+  setup.output.maps = Maps::on;
+  EXPECT_NE(Simulation(setup).map_of(0), nullptr);
 }
 
 /// With maps or without, on any number of threads: the same bits; and a run put back goes on to the same map.

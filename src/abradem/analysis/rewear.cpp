@@ -11,9 +11,6 @@ namespace abradem::analysis {
 namespace {
 
 using wear::Laws;
-using wear::Mechanism;
-
-std::size_t at(Mechanism m) { return static_cast<std::size_t>(m); }
 
 /// By how much a law's volumes grow when nothing but its coefficient changes; nothing where more does.
 std::optional<double> finnie_scale(const Laws& before, const Laws& after) {
@@ -31,18 +28,47 @@ std::optional<double> oka_scale(const Laws& before, const Laws& after) {
                               : std::nullopt;
 }
 
+/// The same of an expression: it stays as it was, or is another.
+std::optional<double> expression_scale(const Laws& before, const Laws& after) {
+  if (!after.expression) return 0.0;
+  return before.expression && after.expression->same_as(*before.expression) ? std::optional(1.0)
+                                                                            : std::nullopt;
+}
+
 /// Volumes by the laws of impacts [m^3].
 struct ByImpacts {
-  double finnie = 0.0, oka = 0.0;
+  double finnie = 0.0, oka = 0.0, expression = 0.0;
 };
-ByImpacts worn(const Laws& laws, const wear::Impact& impact) {
-  wear::MechanismVolumes v{};
-  if (impact.mass > 0.0) wear::add_impact(laws, impact, v);
-  return {v[at(Mechanism::finnie)], v[at(Mechanism::oka)]};
+/// @param all several impacts as one, of their mass together   @param each mass of one of them [kg]
+ByImpacts worn(const Laws& laws, const wear::Impact& all, double each) {
+  ByImpacts v;
+  if (!(all.mass > 0.0)) return v;
+  if (laws.finnie) v.finnie = wear::finnie_volume(*laws.finnie, all);
+  if (laws.oka) v.oka = wear::oka_volume(*laws.oka, all);
+  if (laws.expression && laws.expression->by_impact() && each > 0.0) {
+    wear::Impact one = all;
+    one.mass = each;
+    v.expression = all.mass / each * laws.expression->of_impact(one);
+  }
+  return v;
+}
+/// A class of contacts as one that slides for all their time.
+double worn(const LawChange& change, const wear::SlidingSums& s, double speed) {
+  const auto& expression = change.after.expression;
+  if (!expression || expression->by_impact() || !(s.sliding > 0.0) || !(s.time > 0.0)) return 0.0;
+  return expression->of_step({{s.force_sliding / s.sliding, s.sliding}, s.shear_work, 0.0},
+                             {.F_t = s.shear_work / s.sliding,
+                              .v_t = speed,
+                              .dt = s.time,
+                              .radius = change.radius,
+                              .mass = change.mass});
 }
 /// A region's volume by classes, and by the mean impacts of its elements.
 struct OfRegion {
   ByImpacts classes, means;
+  double mass = 0.0, count = 0.0;              ///< of all its impacts
+  double by_steps = 0.0, force_sliding = 0.0;  ///< an expression of steps [m^3]; of its elements [J]
+  [[nodiscard]] double mean_mass() const noexcept { return count > 0.0 ? mass / count : 0.0; }
 };
 /// Part of the region's volume that is an element's.
 double shared(double of_element, double of_means, double of_classes) {
@@ -54,38 +80,55 @@ double shared(double of_element, double of_means, double of_classes) {
 Reworn rewear(const Recorded& recorded, const std::vector<LawChange>& changes) {
   std::map<std::tuple<int, int>, const LawChange*> change_of;
   for (const LawChange& c : changes) change_of[{c.wall, c.abrader}] = &c;
-  const auto after_of = [&](int wall, int abrader) -> const Laws* {
+  const auto change_at = [&](int wall, int abrader) -> const LawChange* {
     const auto change = change_of.find({wall, abrader});
-    return change == change_of.end() ? nullptr : &change->second->after;
+    return change == change_of.end() ? nullptr : change->second;
   };
   std::map<std::tuple<int, int, int>, OfRegion> of_regions;
-  const auto add = [](ByImpacts& sum, const ByImpacts& v) { sum.finnie += v.finnie, sum.oka += v.oka; };
+  const auto add = [](ByImpacts& sum, const ByImpacts& v) {
+    sum.finnie += v.finnie, sum.oka += v.oka, sum.expression += v.expression;
+  };
   for (const RecordedImpacts& i : recorded.impacts)
-    if (const Laws* laws = after_of(i.wall, i.abrader))
-      add(of_regions[{i.wall, i.abrader, i.region}].classes, worn(*laws, i.mean));
+    if (const LawChange* change = change_at(i.wall, i.abrader)) {
+      OfRegion& region = of_regions[{i.wall, i.abrader, i.region}];
+      add(region.classes, worn(change->after, i.mean, i.count > 0.0 ? i.mean.mass / i.count : 0.0));
+      region.mass += i.mean.mass, region.count += i.count;
+    }
+  for (const RecordedSliding& s : recorded.sliding)
+    if (const LawChange* change = change_at(s.wall, s.abrader))
+      of_regions[{s.wall, s.abrader, s.region}].by_steps += worn(*change, s.sums, s.speed);
   for (const RecordedElement& e : recorded.elements)
-    if (const Laws* laws = after_of(e.wall, e.abrader))
-      add(of_regions[{e.wall, e.abrader, e.region}].means, worn(*laws, e.impact));
+    if (const LawChange* change = change_at(e.wall, e.abrader)) {
+      OfRegion& region = of_regions[{e.wall, e.abrader, e.region}];
+      add(region.means, worn(change->after, e.impact, region.mean_mass()));
+      region.force_sliding += e.sums.force_sliding;
+    }
 
   std::map<std::tuple<int, int>, RewornElement> elements;
   std::map<std::tuple<int, int>, RewornRegion> regions;
   for (const RecordedElement& e : recorded.elements) {
-    const auto change = change_of.find({e.wall, e.abrader});
-    if (change == change_of.end()) continue;
-    const Laws &before = change->second->before, &after = change->second->after;
+    const LawChange* change = change_at(e.wall, e.abrader);
+    if (change == nullptr) continue;
+    const Laws &before = change->before, &after = change->after;
     wear::WearMap::Element sums = e.sums;
     const OfRegion& region_sums = of_regions[{e.wall, e.abrader, e.region}];
-    const ByImpacts own = worn(after, e.impact);
-    const std::optional<double> finnie = finnie_scale(before, after), oka = oka_scale(before, after);
+    const ByImpacts own = worn(after, e.impact, region_sums.mean_mass());
+    const std::optional<double> finnie = finnie_scale(before, after), oka = oka_scale(before, after),
+                                expression = expression_scale(before, after);
     sums.finnie = finnie ? *finnie * sums.finnie
                          : shared(own.finnie, region_sums.means.finnie, region_sums.classes.finnie);
     sums.oka = oka ? *oka * sums.oka : shared(own.oka, region_sums.means.oka, region_sums.classes.oka);
+    sums.expression =
+        expression ? *expression * sums.expression
+        : after.expression->by_impact()
+            ? shared(own.expression, region_sums.means.expression, region_sums.classes.expression)
+            : shared(e.sums.force_sliding, region_sums.force_sliding, region_sums.by_steps);
     const wear::MechanismVolumes v = wear::mapped_volumes(after, sums);
     RewornElement& element = elements[{e.wall, e.element}];
     element.wall = e.wall, element.element = e.element, element.region = e.region, element.area = e.area;
     RewornRegion& region = regions[{e.wall, e.region}];
     region.wall = e.wall, region.region = e.region;
-    region.exact = region.exact && finnie && oka;
+    region.exact = region.exact && finnie && oka && expression;
     for (std::size_t m = 0; m < v.size(); ++m) {
       element.volumes[m] += v[m];
       region.volumes[m] += v[m];

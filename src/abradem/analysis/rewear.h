@@ -20,18 +20,29 @@ struct RecordedElement {
 /// A class of the impacts of one material on one region of a wall, as its mean.
 struct RecordedImpacts {
   int wall = 0, abrader = 0, region = 0;
-  wear::Impact mean;  ///< its mass is that of all together
+  wear::Impact mean;   ///< its mass is that of all together
+  double count = 0.0;  ///< of the test [-]
+};
+
+/// A class of the contacts that slide, of one material in one region of a wall.
+struct RecordedSliding {
+  int wall = 0, abrader = 0, region = 0;
+  wear::SlidingSums sums;
+  double speed = 0.0;  ///< in the middle of the class; the sliding is that of plastic slip, less than speed
+                       ///< times time [m/s]
 };
 
 struct Recorded {
   std::vector<RecordedElement> elements;  ///< by wall, then abrader, then element
   std::vector<RecordedImpacts> impacts;
+  std::vector<RecordedSliding> sliding;
 };
 
 /// How a material wore a wall in the run, and how it is to wear it.
 struct LawChange {
   int wall = 0, abrader = 0;
   wear::Laws before, after;
+  double radius = 0.0, mass = 0.0;  ///< of its spheres, where an expression of steps needs them [m, kg]
 };
 
 struct RewornElement {
@@ -43,7 +54,7 @@ struct RewornElement {
 struct RewornRegion {
   int wall = 0, region = 0;
   wear::MechanismVolumes volumes{};
-  bool exact = true;  ///< nothing in it comes from classes of impacts
+  bool exact = true;  ///< nothing in it comes from classes
 };
 
 struct Reworn {
@@ -53,7 +64,9 @@ struct Reworn {
 
 /// Laws by work are exact: their coefficients times the sums of each element. So are Finnie's and Oka's where
 /// the run had them and nothing but the coefficient is other. Else each class of impacts counts as its mean,
-/// and the region's volume is shared out among its elements as their mean impacts would wear them.
+/// and the region's volume is shared out among its elements as their mean impacts would wear them. So it is
+/// with another expression by impact; one of steps (proportional to them, without dt and normal_work) takes
+/// each class of contacts that slide as its mean, and is shared out as Archard's law would be.
 [[nodiscard]] Reworn rewear(const Recorded& recorded, const std::vector<LawChange>& changes);
 
 }  // namespace abradem::analysis

@@ -177,8 +177,8 @@ void declare_rewear(CLI::App& app, cli::RewearArguments& a) {
   rewear->add_option("DIR", a.folder, "Output folder of a run that kept maps")->required();
   rewear
       ->add_option("--law", a.law,
-                   "Law, or several with commas: archard, shear_work, finnie, oka, impact_energy (default: "
-                   "those of the run)")
+                   "Law, or several with commas: archard, shear_work, finnie, oka, impact_energy, "
+                   "expression (default: those of the run)")
       ->type_name("LAWS");
   rewear->add_option("--pair", a.pair, "The pair that --law is for (default: all of the case)")
       ->type_name("ABRADER/WORN");

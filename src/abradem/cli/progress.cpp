@@ -89,8 +89,11 @@ std::string Progress::state(const simulation::Simulation& run) const {
   const double left = steps > 0.0 ? elapsed * (total - steps) / steps : 0.0;
   const std::string where = run.turns() ? fmt::format("{} {:.2f}", io::counted(run.setup()), run.revolution())
                                         : fmt::format("{:.4g} s", run.test_time());
-  return fmt::format("{}  {:.0f} %  {} steps/s  wear {:.4g} mm^3  {} left", where, 100.0 * steps / total,
-                     grouped(steps / std::max(elapsed, 1e-9)), 1e9 * run.law_volume(), clock_time(left));
+  const double planes = run.plane_volume();
+  return fmt::format("{}  {:.0f} %  {} steps/s  wear {:.4g} mm^3{}  {} left", where, 100.0 * steps / total,
+                     grouped(steps / std::max(elapsed, 1e-9)), 1e9 * run.law_volume(),
+                     planes > 0.0 ? fmt::format(" (and {:.4g} on planes)", 1e9 * planes) : "",
+                     clock_time(left));
 }
 
 void Progress::update(const simulation::Simulation& run) {
@@ -125,6 +128,8 @@ void summarise(const io::RunRecord& record, RunLog& log) {
   log.line(
       fmt::format("ledger: law {:.9g} mm^3, deposited {:.9g}, swept {:.9g}; residual {:.2g}, kappa {:.6g}",
                   1e9 * l.law, 1e9 * l.deposited, 1e9 * l.swept, l.residual, l.kappa));
+  if (l.planes > 0.0)
+    log.line(fmt::format("analytic planes, which keep their shape: law {:.9g} mm^3 besides", 1e9 * l.planes));
   log.line(fmt::format("state {:016x}", record.state_hash));
 }
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <string_view>
 #include <tuple>
 
@@ -29,7 +31,7 @@ using simulation::Setup;
 using simulation::WearLaw;
 using simulation::WearSetup;
 
-constexpr std::array kLaws{"archard"sv, "shear_work"sv, "finnie"sv, "oka"sv, "impact_energy"sv};
+constexpr auto& kLaws = wear::kMechanismNames;  // in the order of WearLaw
 
 std::string pair_of(const WearSetup& w) { return w.abrader + "/" + w.worn; }
 
@@ -88,7 +90,16 @@ Setup changed(const Setup& before, const RewearArguments& a, const fs::path& fil
   if (!a.pair.empty() && a.law.empty()) throw InputError("--pair says which pair --law is for; give --law");
   if (!a.law.empty())
     for (WearSetup& w : setup.wear)
-      if (a.pair.empty() || pair_of(w) == a.pair) w.laws = laws_named(a.law);
+      if (a.pair.empty() || pair_of(w) == a.pair) {
+        w.laws = laws_named(a.law);
+        const bool given = std::ranges::any_of(
+            a.overrides, [](const std::string& o) { return o.find(".expression") != std::string::npos; });
+        if (std::ranges::find(w.laws, WearLaw::expression) != w.laws.end() && w.expression.empty() && !given)
+          throw InputError(fmt::format(
+              "wear \"{0}\": the run has no expression for it; add --set 'wear.\"{0}\".expression=k * "
+              "Fn * slip' and its constants",
+              pair_of(w)));
+      }
   Setup after =
       io::parse_case(io::resolved_case(setup), file.string(), file.parent_path(), a.overrides).setup;
   for (const WearSetup& w : after.wear) check_coefficients(w);
@@ -126,6 +137,47 @@ std::string chosen_name(const fs::path& folder, const std::string& asked) {
   return asked;
 }
 
+/// Radius of the spheres of a material where all have the same; else 0.
+double only_radius(const Setup& setup, const std::string& material) {
+  std::vector<double> radii;
+  for (const simulation::ParticleSetup& p : setup.particles)
+    if (p.material == material) radii.push_back(p.radius);
+  for (const simulation::InsertionSetup& i : setup.insertions) {
+    if (i.material != material) continue;
+    const bool single = i.size.kind == simulation::SizeKind::single && i.shape.empty() &&
+                        i.volume.shape != simulation::VolumeShape::file;
+    radii.push_back(single ? i.size.radius : 0.0);
+  }
+  return !radii.empty() && std::ranges::all_of(radii, [&](double r) { return r == radii[0]; }) ? radii[0]
+                                                                                               : 0.0;
+}
+
+/// Can another expression be worked out from classes of contacts?
+void check_expression(const Setup& setup, const WearSetup& w, analysis::LawChange& change) {
+  using wear::Symbol;
+  const auto &was = change.before.expression, &is = change.after.expression;
+  if (!is || is->by_impact() || (was && is->same_as(*was))) return;
+  const auto refuse = [&](const char* why) {
+    throw InputError(
+        fmt::format("wear \"{}\": the record of the run cannot tell what this expression wears: {}. Run "
+                    "the case with it",
+                    pair_of(w), why));
+  };
+  if (!is->proportional_to_step()) refuse("its volume depends on the time step");
+  if (is->names(Symbol::dt)) refuse("contacts that do not slide are in no class, and dt counts there too");
+  if (is->names(Symbol::normal_work)) refuse("classes of contacts have no normal_work");
+  const bool sized =
+      std::ranges::any_of(std::array{Symbol::a, Symbol::p_mean, Symbol::p_max, Symbol::m, Symbol::R},
+                          [&](Symbol s) { return is->names(s); });
+  change.radius = only_radius(setup, w.abrader);
+  if (sized && change.radius == 0.0)
+    refuse(
+        "a, p_mean, p_max, m and R want spheres of one size, and classes of contacts do not tell sizes "
+        "apart");
+  const auto material = std::ranges::find(setup.materials, w.abrader, &simulation::MaterialSetup::name);
+  change.mass = material->density * 4.0 / 3.0 * std::numbers::pi * std::pow(change.radius, 3);
+}
+
 std::vector<analysis::LawChange> changes_of(const Setup& before, const Setup& after) {
   const auto index = [&](const std::string& material) {
     return static_cast<int>(std::ranges::find(before.materials, material, &simulation::MaterialSetup::name) -
@@ -134,10 +186,12 @@ std::vector<analysis::LawChange> changes_of(const Setup& before, const Setup& af
   std::vector<analysis::LawChange> changes;
   for (std::size_t w = 0; w < before.walls.size(); ++w)
     for (std::size_t k = 0; k < before.wear.size(); ++k)
-      if (before.wear[k].worn == before.walls[w].material)
+      if (before.wear[k].worn == before.walls[w].material) {
         changes.push_back({static_cast<int>(w), index(before.wear[k].abrader),
                            simulation::laws_of(before, before.wear[k], 1.0),
                            simulation::laws_of(after, after.wear[k], 1.0)});
+        check_expression(after, after.wear[k], changes.back());
+      }
   return changes;
 }
 
@@ -166,6 +220,10 @@ void check_numbers(const analysis::Recorded& recorded, const report::RewearSumma
     if (!fits(i.wall, i.region) || !(i.mean.mass > 0.0))
       throw IoError(fmt::format("{}: a class of impacts is of no wall or region of this case",
                                 (tables / "impact_spectrum.csv").string()));
+  for (const auto& c : recorded.sliding)
+    if (!fits(c.wall, c.region))
+      throw IoError(fmt::format("{}: a class of contacts is of no wall or region of this case",
+                                (tables / "sliding_spectrum.csv").string()));
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
                       wear.abrader, wear.worn, wear.worn));
   if (record.ledger.tip_residual > 1e-9)
     warn(fmt::format("the pin's ledger does not close: residual {:.3g}", record.ledger.tip_residual));
-  if (record.status == "completed" && run.law_volume() == 0.0 &&
+  if (record.status == "completed" && run.law_volume() == 0.0 && run.plane_volume() == 0.0 &&
       (run.wears_by_laws() ||
        std::ranges::any_of(run.setup().wear, [](const auto& wear) { return wear.wear_coefficient > 0.0; })))
     warn("a wear coefficient is given, but nothing was worn: does a wall slide under a particle?");

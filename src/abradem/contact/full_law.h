@@ -21,6 +21,7 @@ struct OptionsChunk {
   Array inertia;     // of the pair, about its centres [kg m^2]
   Array S_t;         // out: tangential stiffness [N/m]
   Array parted;      // out: 1: the contact is no more
+  Array lost;        // out: power of the normal damper [W]
 
   ABRADEM_INLINE void set_constants(std::size_t k, const PairConstants& p) noexcept {
     normal_k[k] = p.options.normal_stiffness;
@@ -114,6 +115,7 @@ ABRADEM_INLINE void full_law_loop(ContactChunk& c, OptionsChunk& o, std::size_t 
     c.tz[k] = ftx * ny - fty * nx;
     o.S_t[k] = S_t;
     o.parted[k] = 1.0 - on;
+    o.lost[k] = on * D_n * vn * vn;
 
     // Rolling: a constant torque, or a spring of stiffness S_t R^2 that slides at the same torque (EPSD2).
     // Where torsion has a law of its own, and in type C always, only the part across the normal rolls.

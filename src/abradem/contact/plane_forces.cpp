@@ -85,6 +85,7 @@ bool plane_forces(const Spheres& spheres, PlaneList& list, const MovingPlane& pl
   const double level = dot(n, plane.pose.to_world(plane.point));
   const std::size_t chunks = (list.size() + kCapacity - 1) / kCapacity;
   std::vector<std::uint8_t> deep(chunks, 0);
+  if (options) list.lost.assign(list.size(), 0.0);
   core::parallel_for(
       chunks,
       [&](std::size_t chunk) {
@@ -159,6 +160,7 @@ bool plane_forces(const Spheres& spheres, PlaneList& list, const MovingPlane& pl
             const Vec3 elastic = plane.pose.turn_back({o.mx[m], o.my[m], o.mz[m]});
             list.torque[k] = {elastic.x, elastic.y, elastic.z, o.twist[m]};
             if (o.parted[m] > 0.0) list.touching[k] = 0;
+            list.lost[k] = o.lost[m] * dt;
           }
           list.load[k] = {c.fx[m], c.fy[m], c.fz[m], c.stiffening[m], torque.x, torque.y, torque.z, 0.0};
           list.F_n[k] = c.F_n[m];

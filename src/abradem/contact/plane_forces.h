@@ -23,6 +23,7 @@ struct PlaneList {
   std::vector<SpringRow> torque;    ///< likewise, of contacts with options [N m]
   std::vector<LoadRow> load;        ///< on each sphere, world frame; zero where it does not touch
   std::vector<double> F_n, slip;    ///< normal force [N], plastic sliding of the step [m]
+  std::vector<double> lost;         ///< to the normal damper in the step; of contacts with options alone [J]
 
   /// Finds the spheres within `skin` of the plane, those with id < first_id left out, and carries the springs
   /// over.

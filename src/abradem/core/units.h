@@ -46,6 +46,14 @@ struct Quantity {
   std::string unit;     ///< as written; empty for a bare number
 };
 
+/// A constant with a name of its own.
+struct NamedQuantity {
+  std::string name;
+  double value = 0.0;  ///< in SI units
+  Dimension dimension;
+  bool operator==(const NamedQuantity&) const = default;
+};
+
 /// Text that is not a quantity. `position` counts bytes from the start of the text.
 struct UnitError : InputError {
   UnitError(std::size_t at, const std::string& message) : InputError(message), position(at) {}

@@ -66,6 +66,9 @@ Json value_schema(const Row& row) {
       return {{"type", "object"},
               {"minProperties", 1},
               {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}};
+    case Kind::constants:
+      return {{"type", "object"},
+              {"additionalProperties", {{"anyOf", Json::array({{{"type", "number"}}, text_with_unit()})}}}};
     case Kind::quantity:
     case Kind::duration:
     case Kind::time_step:

@@ -3,6 +3,7 @@
 
 #include "abradem/core/units.h"
 #include "abradem/io/case_schema.h"
+#include "abradem/wear/expression.h"
 
 namespace abradem::io {
 namespace {
@@ -67,6 +68,8 @@ std::string value_cell(const Row& row) {
       return "table: key of the case = value";
     case Kind::variations:
       return "table: key of the case = list of values";
+    case Kind::constants:
+      return "table: name = quantity of any dimension";
     case Kind::length_unit:
       return "a unit of length, or a length [m]";
   }
@@ -90,6 +93,20 @@ std::string presence(const Section& section) {
       return "At least one is required.";
     case Presence::optional:
       return "Optional.";
+  }
+  return {};
+}
+
+std::string_view owner(wear::SymbolInfo::Of of) {
+  switch (of) {
+    case wear::SymbolInfo::Of::step:
+      return "a contact in one step";
+    case wear::SymbolInfo::Of::impact:
+      return "one impact";
+    case wear::SymbolInfo::Of::sphere:
+      return "the sphere";
+    case wear::SymbolInfo::Of::materials:
+      return "the materials";
   }
   return {};
 }
@@ -125,6 +142,15 @@ std::string case_reference_markdown() {
     }
   }
   out +=
+      "\n## Expressions\n\n"
+      "What `expression` of [wear](#wearnamename) may name, in SI. [More](../theory/wear.md#expression)\n\n"
+      "| Name | Unit | Of | Meaning |\n|---|---|---|---|\n";
+  for (const wear::SymbolInfo& s : wear::expression_symbols())
+    out += fmt::format("| `{}` | {} | {} | {} |\n", s.name, s.unit.empty() ? "-" : s.unit, owner(s.of),
+                       s.meaning);
+  out +=
+      "\n`+ - * / ^`, comparisons, `&&`, `||`, `condition ? this : that`, `pi`, and the functions "
+      "`sin cos tan asin acos atan exp ln log10 sqrt cbrt abs` of one and `min max` of two arguments.\n"
       "\n## Units\n\n"
       "Products are written with `*`, `·` or a space, quotients with `/`, powers with `^2`, `²` or `³`; "
       "parentheses are "

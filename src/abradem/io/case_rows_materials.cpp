@@ -4,6 +4,7 @@
 
 #include "abradem/io/case_row_slots.h"
 #include "abradem/io/case_rows.h"
+#include "abradem/wear/laws.h"
 
 namespace abradem::io {
 namespace {
@@ -15,12 +16,13 @@ constexpr std::array kContactLaws{"hertz_mindlin"sv, "linear"sv};
 constexpr std::array kRollingModels{"constant"sv, "epsd2"sv};
 constexpr std::array kTorsions{"none"sv, "marshall"sv};
 constexpr std::array kCohesions{"none"sv, "sjkr"sv, "jkr"sv};
-constexpr std::array kWearLaws{"archard"sv, "shear_work"sv, "finnie"sv, "oka"sv, "impact_energy"sv};
+constexpr auto& kWearLaws = wear::kMechanismNames;
 constexpr std::array kArchard{"archard"sv};
 constexpr std::array kShearWork{"shear_work"sv};
 constexpr std::array kFinnie{"finnie"sv};
 constexpr std::array kOka{"oka"sv};
 constexpr std::array kImpactEnergy{"impact_energy"sv};
+constexpr std::array kExpression{"expression"sv};
 
 constexpr std::array kLinear{"linear"sv};
 constexpr std::array kSjkr{"sjkr"sv};
@@ -68,8 +70,8 @@ const std::array kRows{
         .unit = "HV",
         .limits = kPositive,
         .example = "\"143 HV\"",
-        .doc = "Indentation hardness H; only used to state the dimensionless Archard coefficient k = "
-               "wear_coefficient * H."},
+        .doc = "Indentation hardness H; for Oka's law, for an expression that names it, and to state the "
+               "dimensionless Archard coefficient k = wear_coefficient * H."},
 
     Row{.section = "contact.*",
         .key = "law",
@@ -177,7 +179,8 @@ const std::array kRows{
         .doc =
             "Wear law, or several whose volumes add up: by force and sliding distance (archard), by the work "
             "of friction (shear_work), by each impact's mass, speed and angle (finnie, oka), by the energy "
-            "that impacts lose along the normal and to friction (impact_energy)."},
+            "that impacts lose along the normal and to friction (impact_energy), by a formula of your own "
+            "(expression)."},
     Row{.section = "wear.*",
         .key = "wear_coefficient",
         .slot = ABRADEM_SLOT(wear->wear_coefficient),
@@ -295,6 +298,24 @@ const std::array kRows{
         .doc =
             "Volume worn per energy that contacts lose to friction; of the shear impact energy model (SIEM) "
             "C / p."},
+    Row{.section = "wear.*",
+        .key = "expression",
+        .kind = Kind::text,
+        .slot = ABRADEM_SLOT(wear->expression),
+        .when = {"law", kExpression},
+        .example = "\"k / H * Fn * slip\"",
+        .doc =
+            "Volume worn [m^3] per contact and time step or, where it names v or angle, per impact, as a "
+            "formula "
+            "in SI; [its names](#expressions). Its unit is checked: numbers have none, so give constants."},
+    Row{.section = "wear.*",
+        .key = "constants",
+        .kind = Kind::constants,
+        .need = Need::optional,
+        .slot = ABRADEM_SLOT(wear->constants),
+        .when = {"law", kExpression},
+        .example = "{ k = 1e-4, F0 = \"2 N\" }",
+        .doc = "Constants that the expression names, each with its unit; a bare number has none."},
     Row{.section = "wear.*",
         .key = "acceleration",
         .kind = Kind::acceleration,

@@ -76,6 +76,18 @@ Target target_with_defaults() {
           .sphere = setup.shapes[0].spheres.data()};
 }
 
+/// { k = 0.001, F0 = "2 N" }
+std::string format_constants(const std::vector<core::NamedQuantity>& constants) {
+  std::vector<std::string> items;
+  for (const core::NamedQuantity& c : constants) {
+    const std::string unit = core::si_unit(c.dimension);
+    items.push_back(fmt::format(
+        "{} = {}", toml_key(c.name),
+        unit.empty() ? core::format_number(c.value) : toml_string(core::format_quantity(c.value, unit))));
+  }
+  return fmt::format("{{ {} }}", fmt::join(items, ", "));
+}
+
 /// { "wall.disc.mesh.size" = ["0.1 mm", "0.2 mm"] }
 std::string format_varied(const Row& row, const std::vector<simulation::VariedKey>& keys) {
   std::string out;
@@ -194,6 +206,9 @@ std::optional<std::string> format_value(const Row& row, const Slot& slot) {
                           for (const int i : several.get())
                             names.push_back(toml_string(row.choices[static_cast<std::size_t>(i)]));
                           return names.size() == 1 ? names[0] : fmt::format("[{}]", fmt::join(names, ", "));
+                        },
+                        [](const std::vector<core::NamedQuantity>* constants) -> Text {
+                          return constants->empty() ? std::nullopt : Text(format_constants(*constants));
                         },
                         [&](const std::vector<simulation::VariedKey>* keys) -> Text {
                           return keys->empty() ? std::nullopt : Text(format_varied(row, *keys));

@@ -52,7 +52,8 @@ struct ChoicesSlot {
 /// The member a row fills. monostate: nothing to store, the key has one allowed value.
 using Slot = std::variant<std::monostate, std::string*, double*, std::optional<double>*, Vec3*, int*,
                           std::uint64_t*, simulation::Duration*, simulation::TimeStep*, ChoiceSlot,
-                          ChoicesSlot, std::vector<simulation::VariedKey>*, simulation::Acceleration*>;
+                          ChoicesSlot, std::vector<simulation::VariedKey>*, simulation::Acceleration*,
+                          std::vector<core::NamedQuantity>*>;
 
 enum class Kind {
   text,          ///< any text
@@ -73,6 +74,7 @@ enum class Kind {
   length_unit,   ///< a unit of length ("mm")
   changes,       ///< keys of the case, each with a value
   variations,    ///< keys of the case, each with a list of values
+  constants,     ///< names that the user chooses, each with a quantity of any dimension
 };
 
 enum class Need { required, has_default, optional };

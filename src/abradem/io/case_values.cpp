@@ -88,6 +88,8 @@ class Reader {
       case Kind::changes:
       case Kind::variations:
         return store(varied(value));
+      case Kind::constants:
+        return store(constants(value));
     }
     return false;
   }
@@ -369,6 +371,27 @@ class Reader {
     }
     if (!good) return std::nullopt;
     return keys;
+  }
+
+  std::optional<std::vector<core::NamedQuantity>> constants(const Value& value) {
+    if (value.type != Value::Type::table)
+      return wrong(value, fmt::format("expected names with their quantities, such as {}, got {}",
+                                      row_.example, written(value)));
+    std::vector<core::NamedQuantity> named;
+    for (const Entry& e : value.entries) {
+      if (is_number(e.value) && std::isfinite(number_of(e.value))) {
+        named.push_back({e.key, number_of(e.value), {}});
+      } else if (e.value.type == Value::Type::text) {
+        const auto read = parsed(e.value, e.value.text);
+        if (!read) return std::nullopt;
+        named.push_back({e.key, read->value, read->dimension});
+      } else {
+        return wrong(e.value,
+                     fmt::format("'{}' is {}; expected a number, or text with a unit such as \"5 N\"", e.key,
+                                 written(e.value)));
+      }
+    }
+    return named;
   }
 
   std::optional<simulation::Acceleration> acceleration(const Value& value) {

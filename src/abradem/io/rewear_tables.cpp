@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -34,6 +35,11 @@ class Columns {
       throw IoError(fmt::format("{}: {}", path_.string(), error.what()));
     }
   }
+  /// Zeros where an earlier version wrote the table.
+  [[nodiscard]] std::vector<double> if_there(const std::string& name) const {
+    return std::ranges::find(table_.columns, name) == table_.columns.end() ? std::vector<double>(rows(), 0.0)
+                                                                           : table_.column(name);
+  }
 
  private:
   std::filesystem::path path_;
@@ -41,8 +47,7 @@ class Columns {
 };
 
 std::vector<std::string> with_laws(std::vector<std::string> columns) {
-  columns.insert(columns.end(),
-                 {"archard_mm3", "shear_work_mm3", "finnie_mm3", "oka_mm3", "impact_energy_mm3"});
+  for (const std::string_view law : wear::kMechanismNames) columns.push_back(std::string(law) + "_mm3");
   return columns;
 }
 
@@ -54,7 +59,8 @@ void add_laws(std::vector<double>& row, const wear::MechanismVolumes& volumes) {
 
 analysis::Recorded read_recorded_wear(const std::filesystem::path& tables) {
   const std::filesystem::path integrals = tables / "wear_integrals.csv",
-                              spectrum = tables / "impact_spectrum.csv";
+                              spectrum = tables / "impact_spectrum.csv",
+                              sliding_spectrum = tables / "sliding_spectrum.csv";
   std::error_code code;
   if (!std::filesystem::exists(integrals, code))
     throw InputError(fmt::format(
@@ -68,7 +74,7 @@ analysis::Recorded read_recorded_wear(const std::filesystem::path& tables) {
                area = t["area_mm2"], sliding = t["force_sliding_J"], shear = t["shear_work_J"],
                normal = t["normal_work_J"], mass = t["impact_mass_kg"], angle = t["angle_mean_deg"],
                speed = t["speed_rms_m_per_s"], diameter = t["diameter_mean_mm"], finnie = t["finnie_mm3"],
-               oka = t["oka_mm3"];
+               oka = t["oka_mm3"], expression = t.if_there("expression_mm3");
     for (std::size_t r = 0; r < t.rows(); ++r) {
       analysis::RecordedElement e{whole(wall[r], integrals),
                                   whole(abrader[r], integrals),
@@ -83,17 +89,32 @@ analysis::Recorded read_recorded_wear(const std::filesystem::path& tables) {
       if (mass[r] > 0.0) e.impact = {speed[r], angle[r] / kDegrees, mass[r], diameter[r] / kMm};
       e.sums.finnie = finnie[r] / kMm3;
       e.sums.oka = oka[r] / kMm3;
+      e.sums.expression = expression[r] / kMm3;
       recorded.elements.push_back(e);
     }
   }
   const Columns t(spectrum);
   const auto wall = t["wall"], abrader = t["abrader"], region = t["region"], mass = t["mass_kg"],
-             angle = t["angle_mean_deg"], speed = t["speed_rms_m_per_s"], diameter = t["diameter_mean_mm"];
+             angle = t["angle_mean_deg"], speed = t["speed_rms_m_per_s"], diameter = t["diameter_mean_mm"],
+             count = t["impacts"];
   for (std::size_t r = 0; r < t.rows(); ++r)
     recorded.impacts.push_back({whole(wall[r], spectrum),
                                 whole(abrader[r], spectrum),
                                 whole(region[r], spectrum),
-                                {speed[r], angle[r] / kDegrees, mass[r], diameter[r] / kMm}});
+                                {speed[r], angle[r] / kDegrees, mass[r], diameter[r] / kMm},
+                                count[r]});
+  {
+    const Columns s(sliding_spectrum);
+    const auto at_wall = s["wall"], by = s["abrader"], in = s["region"], time = s["time_s"],
+               slow = s["speed_low_m_per_s"], fast = s["speed_high_m_per_s"], way = s["sliding_m"],
+               force_sliding = s["force_sliding_J"], work = s["shear_work_J"];
+    for (std::size_t r = 0; r < s.rows(); ++r)
+      recorded.sliding.push_back({whole(at_wall[r], sliding_spectrum),
+                                  whole(by[r], sliding_spectrum),
+                                  whole(in[r], sliding_spectrum),
+                                  {time[r], way[r], force_sliding[r], work[r]},
+                                  0.5 * (slow[r] + fast[r])});
+  }
   return recorded;
 }
 

@@ -34,6 +34,7 @@ Json ledger_json(const simulation::Ledger& ledger) {
                {"swept_volume_mm3", number(kMm3 * ledger.swept)},
                {"residual_relative", number(ledger.residual)},
                {"kappa", number(ledger.kappa)}};
+  if (ledger.planes > 0.0) json["planes_law_volume_mm3"] = number(kMm3 * ledger.planes);
   if (ledger.displaced > 0.0)
     json["ploughing"] = {{"groove_volume_mm3", number(kMm3 * (ledger.law + ledger.displaced))},
                          {"removed_volume_mm3", number(kMm3 * ledger.law)},
@@ -50,11 +51,10 @@ Json ledger_json(const simulation::Ledger& ledger) {
 
 /// Totals by law: of every wall, and of all.
 Json laws_json(const wear::MechanismVolumes& v) {
-  return {{"archard_mm3", number(kMm3 * v[0])},
-          {"shear_work_mm3", number(kMm3 * v[1])},
-          {"finnie_mm3", number(kMm3 * v[2])},
-          {"oka_mm3", number(kMm3 * v[3])},
-          {"impact_energy_mm3", number(kMm3 * v[4])}};
+  Json json = Json::object();
+  for (std::size_t m = 0; m < v.size(); ++m)
+    json[std::string(wear::kMechanismNames[m]) + "_mm3"] = number(kMm3 * v[m]);
+  return json;
 }
 
 Json walls_json(const std::vector<RunRecord::Wall>& walls) {

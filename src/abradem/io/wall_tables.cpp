@@ -17,8 +17,9 @@ constexpr double kLoadRows = 20.0;  // of each wall, per output
 
 /// tables/impacts.csv: how many, how fast, and what they wore, by angle.
 void write_impacts(const std::filesystem::path& path, const Simulation& run) {
-  CsvWriter table(path, {"wall", "angle_low_deg", "angle_high_deg", "impacts", "mass_kg", "angle_mean_deg",
-                         "speed_mean_m_per_s", "diameter_mean_mm", "finnie_mm3", "oka_mm3"});
+  CsvWriter table(path,
+                  {"wall", "angle_low_deg", "angle_high_deg", "impacts", "mass_kg", "angle_mean_deg",
+                   "speed_mean_m_per_s", "diameter_mean_mm", "finnie_mm3", "oka_mm3", "expression_mm3"});
   for (std::size_t w = 0; w < run.walls().size(); ++w) {
     const auto& bins = run.impacts_on(w).bins();
     for (std::size_t k = 0; k < bins.size(); ++k) {
@@ -27,13 +28,13 @@ void write_impacts(const std::filesystem::path& path, const Simulation& run) {
       table.row({static_cast<double>(w), kDegrees * ImpactSpectrum::low(k),
                  kDegrees * ImpactSpectrum::low(k + 1), static_cast<double>(b.count), b.mass,
                  kDegrees * b.angle / b.mass, b.speed / b.mass, kMm * b.diameter / b.mass, kMm3 * b.finnie,
-                 kMm3 * b.oka});
+                 kMm3 * b.oka, kMm3 * b.expression});
     }
   }
   table.close();
 }
 
-/// The mean impact on a wall; no mass where there was none.
+/// The mean impact on a wall, its mass that of all together; no mass where there was none.
 wear::Impact mean_impact(const ImpactSpectrum& impacts) {
   wear::Impact mean;
   for (const ImpactSpectrum::Bin& b : impacts.bins()) {
@@ -48,25 +49,36 @@ wear::Impact mean_impact(const ImpactSpectrum& impacts) {
 /// tables/erosion.csv: what the laws of impacts say at any angle, for the wall's mean speed and diameter.
 void write_erosion(const std::filesystem::path& path, const Simulation& run) {
   CsvWriter table(path, {"wall", "abrader", "angle_deg", "speed_m_per_s", "diameter_mm", "finnie_mm3_per_kg",
-                         "oka_mm3_per_kg"});
+                         "oka_mm3_per_kg", "expression_mm3_per_kg"});
   for (std::size_t w = 0; w < run.walls().size(); ++w) {
     wear::Impact impact = mean_impact(run.impacts_on(w));
     if (!(impact.mass > 0.0)) continue;
-    impact.mass = 1.0;
+    const double mass = impact.mass / static_cast<double>(run.impacts_on(w).count());
     for (std::size_t m = 0; m < run.setup().materials.size(); ++m) {
       const wear::Laws& laws = run.wear_laws(static_cast<int>(m), run.walls()[w].material());
       if (!laws.strikes()) continue;
       for (int degree = 0; degree <= 90; ++degree) {
         impact.angle = degree / kDegrees;
-        wear::MechanismVolumes v{};
+        impact.mass = mass;  // an expression may take it as it likes
+        wear::MechanismVolumes v{}, per_mass{};
         wear::add_impact(laws, impact, v);
+        impact.mass = 1.0;
+        wear::add_impact(laws, impact, per_mass);
         table.row({static_cast<double>(w), static_cast<double>(m), static_cast<double>(degree), impact.speed,
-                   kMm * impact.diameter, kMm3 * v[static_cast<std::size_t>(wear::Mechanism::finnie)],
-                   kMm3 * v[static_cast<std::size_t>(wear::Mechanism::oka)]});
+                   kMm * impact.diameter, kMm3 * per_mass[static_cast<std::size_t>(wear::Mechanism::finnie)],
+                   kMm3 * per_mass[static_cast<std::size_t>(wear::Mechanism::oka)],
+                   kMm3 * v[static_cast<std::size_t>(wear::Mechanism::expression)] / mass});
       }
     }
   }
   table.close();
+}
+
+std::vector<std::string> columns_by_law() {
+  std::vector<std::string> columns{"revolution", "time_s", "wall"};
+  for (const std::string_view law : wear::kMechanismNames) columns.push_back(std::string(law) + "_mm3");
+  columns.emplace_back("impacts");
+  return columns;
 }
 
 }  // namespace
@@ -81,10 +93,7 @@ WallTables::WallTables(const Simulation& run, const std::filesystem::path& folde
               "torque_y_Nm", "torque_z_Nm", "power_W"},
              CsvWriter::Growing{from.loads}) {
   if (run.wears_by_laws())
-    laws_.emplace(tables_ / "wear_by_law.csv",
-                  std::vector<std::string>{"revolution", "time_s", "wall", "archard_mm3", "shear_work_mm3",
-                                           "finnie_mm3", "oka_mm3", "impact_energy_mm3", "impacts"},
-                  CsvWriter::Growing{from.laws});
+    laws_.emplace(tables_ / "wear_by_law.csv", columns_by_law(), CsvWriter::Growing{from.laws});
 }
 
 void WallTables::add_loads(const Simulation& run, double revolution) {
@@ -99,8 +108,10 @@ void WallTables::add(const Simulation& run, double revolution) {
   if (!laws_) return;
   for (std::size_t w = 0; w < run.walls().size(); ++w) {
     const wear::MechanismVolumes v = run.law_volumes(w);
-    laws_->row({revolution, run.test_time(), static_cast<double>(w), kMm3 * v[0], kMm3 * v[1], kMm3 * v[2],
-                kMm3 * v[3], kMm3 * v[4], static_cast<double>(run.impacts_on(w).count())});
+    std::vector<double> row{revolution, run.test_time(), static_cast<double>(w)};
+    for (const double volume : v) row.push_back(kMm3 * volume);
+    row.push_back(static_cast<double>(run.impacts_on(w).count()));
+    laws_->row(row);
   }
 }
 

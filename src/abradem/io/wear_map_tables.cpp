@@ -19,7 +19,6 @@ using wear::WearMap;
 
 constexpr double kMm = 1e3, kMm2 = 1e6, kMm3 = 1e9, kUm = 1e6, kUm3 = 1e18, kMPa = 1e-6;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr std::array kLawNames{"archard", "shear_work", "finnie", "oka", "impact_energy"};
 
 /// Where a wall's element began: its centre and its area.
 struct Place {
@@ -46,7 +45,7 @@ void write_elements(const std::filesystem::path& path, const Simulation& run,
   if (mapped) {
     columns.insert(columns.end(), {"wall", "force_sliding_J", "shear_work_J", "normal_work_J", "sliding_mm",
                                    "impacts", "impact_energy_J", "peak_pressure_MPa"});
-    for (const char* law : kLawNames) columns.push_back(std::string(law) + "_mm3");
+    for (const std::string_view law : wear::kMechanismNames) columns.push_back(std::string(law) + "_mm3");
   }
   const double of_test = run.acceleration();
   CsvWriter table(path, columns);
@@ -80,8 +79,8 @@ void write_integrals(const std::filesystem::path& path, const Simulation& run) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   CsvWriter table(path,
                   {"wall", "abrader", "region", "element", "area_mm2", "force_sliding_J", "shear_work_J",
-                   "normal_work_J", "finnie_mm3", "oka_mm3", "impacts", "impact_energy_J", "impact_mass_kg",
-                   "angle_mean_deg", "speed_rms_m_per_s", "diameter_mean_mm"});
+                   "normal_work_J", "finnie_mm3", "oka_mm3", "expression_mm3", "impacts", "impact_energy_J",
+                   "impact_mass_kg", "angle_mean_deg", "speed_rms_m_per_s", "diameter_mean_mm"});
   const double of_test = run.acceleration();
   for (std::size_t w = 0; w < run.walls().size(); ++w) {
     if (run.map_of(w) == nullptr) continue;
@@ -96,8 +95,9 @@ void write_integrals(const std::filesystem::path& path, const Simulation& run) {
                    static_cast<double>(map.region_of(t)), static_cast<double>(t),
                    kMm2 * place_of(run.walls()[w].surface(), t).area, of_test * e.force_sliding,
                    of_test * e.shear_work, of_test * e.normal_work, kMm3 * e.finnie, kMm3 * e.oka,
-                   of_test * static_cast<double>(e.impacts.count), of_test * e.impacts.energy(),
-                   of_test * mean.mass, kDegrees * mean.angle, mean.speed, kMm * mean.diameter});
+                   kMm3 * e.expression, of_test * static_cast<double>(e.impacts.count),
+                   of_test * e.impacts.energy(), of_test * mean.mass, kDegrees * mean.angle, mean.speed,
+                   kMm * mean.diameter});
       }
   }
   table.close();
@@ -187,9 +187,9 @@ MapArrays map_arrays(const Simulation& run, std::size_t wall) {
     add("impact_energy_J", [&](std::size_t t) { return of_test * e[t].impacts.energy(); });
     add("peak_pressure_MPa", [&](std::size_t t) { return kMPa * e[t].peak_pressure; });
     if (run.wears_by_laws(wall))
-      for (std::size_t m = 0; m < kLawNames.size(); ++m)
+      for (std::size_t m = 0; m < wear::kMechanisms; ++m)
         if (run.law_volumes(wall)[m] > 0.0)
-          add(std::string(kLawNames[m]) + "_um3",
+          add(std::string(wear::kMechanismNames[m]) + "_um3",
               [&](std::size_t t) { return kUm3 * run.mapped_volumes(wall, t)[m]; });
   }
   for (std::size_t k = 0; k < names.size(); ++k) out.arrays.push_back({names[k], out.values[k], 1});

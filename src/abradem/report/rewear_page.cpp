@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array kLaws{"archard"sv, "shear_work"sv, "finnie"sv, "oka"sv, "impact_energy"sv};
+constexpr auto& kLaws = wear::kMechanismNames;
 constexpr double kMm3 = 1e9, kUm = 1e6;
 constexpr std::size_t kWorst = 10;
 
@@ -35,10 +35,11 @@ std::vector<std::size_t> used_laws(const analysis::Reworn& reworn) {
 }
 
 DataTable by_region(const RewearSummary& s) {
-  DataTable table{.id = fmt::format("rewear_{}_volumes", s.name),
-                  .title = "Volume worn",
-                  .caption = "By the laws assumed here. Exact: nothing in it comes from classes of impacts.",
-                  .columns = {"region", "volume [mm³]"}};
+  DataTable table{
+      .id = fmt::format("rewear_{}_volumes", s.name),
+      .title = "Volume worn",
+      .caption = "By the laws assumed here. Exact: nothing in it comes from classes of contacts or impacts.",
+      .columns = {"region", "volume [mm³]"}};
   const std::vector<std::size_t> used = used_laws(s.reworn);
   for (const std::size_t m : used) table.columns.push_back(fmt::format("{} [mm³]", kLaws[m]));
   table.columns.emplace_back("exact");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -65,12 +66,17 @@ constexpr std::array kWear = {"element"sv,
                               "impact_energy_J"sv,
                               "peak_pressure_MPa"sv};
 
-/// A table that only some runs write.
+/// A table that only some runs write. @param later a column that earlier versions do not write: zeros then
 std::optional<Table> read_if_there(const std::filesystem::path& file,
-                                   std::span<const std::string_view> required) {
+                                   std::span<const std::string_view> required, std::string_view later = {}) {
   std::error_code code;
   if (!std::filesystem::exists(file, code)) return std::nullopt;
-  return read_table(file, required);
+  Table table = read_table(file, required);
+  if (!later.empty() && std::ranges::find(table.names, later) == table.names.end()) {
+    table.columns.emplace_back(table.rows(), 0.0);
+    table.names.emplace_back(later);
+  }
+  return table;
 }
 
 std::string read_case(const std::filesystem::path& file) {
@@ -163,9 +169,9 @@ RunFolder read_run_folder(const std::filesystem::path& folder) {
   run.tip_profile = read_if_there(tables / "tip_profile.csv", kTipProfile);
   run.particles = read_if_there(tables / "particles.csv", kParticles);
   run.walls = read_if_there(tables / "walls.csv", kWalls);
-  run.laws = read_if_there(tables / "wear_by_law.csv", kLaws);
-  run.impacts = read_if_there(tables / "impacts.csv", kImpacts);
-  run.erosion = read_if_there(tables / "erosion.csv", kErosion);
+  run.laws = read_if_there(tables / "wear_by_law.csv", kLaws, "expression_mm3");
+  run.impacts = read_if_there(tables / "impacts.csv", kImpacts, "expression_mm3");
+  run.erosion = read_if_there(tables / "erosion.csv", kErosion, "expression_mm3_per_kg");
   if (std::filesystem::exists(tables / "wear_integrals.csv", code))
     run.wear = read_table(tables / "wear.csv", kWear);
   read_surface(run);

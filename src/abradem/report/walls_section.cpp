@@ -21,8 +21,10 @@ using Kind = Series::Kind;
 
 constexpr std::array kLaws{std::pair{"archard_mm3"sv, "Archard"sv},
                            std::pair{"shear_work_mm3"sv, "shear work"sv},
-                           std::pair{"finnie_mm3"sv, "Finnie"sv}, std::pair{"oka_mm3"sv, "Oka"sv},
-                           std::pair{"impact_energy_mm3"sv, "impact energy"sv}};
+                           std::pair{"finnie_mm3"sv, "Finnie"sv},
+                           std::pair{"oka_mm3"sv, "Oka"sv},
+                           std::pair{"impact_energy_mm3"sv, "impact energy"sv},
+                           std::pair{"expression_mm3"sv, "expression"sv}};
 
 std::string name_of(const RunFolder& run, double wall) {
   const auto w = static_cast<std::size_t>(wall);
@@ -86,7 +88,9 @@ DataTable volumes(const RunFolder& run) {
   const Table& table = *run.laws;
   DataTable out{.id = "law-volumes",
                 .title = "Volume worn, by law",
-                .caption = "At the end of the run. The sum is the law volume of the ledger.",
+                .caption =
+                    "At the end of the run. The sum over the meshes is the law volume of the ledger; "
+                    "analytic planes keep their shape and stand outside it.",
                 .columns = {"wall"}};
   std::vector<std::string_view> used;
   for (const auto& [column, law] : kLaws)
@@ -142,7 +146,8 @@ Figure erosion(const RunFolder& run, double wall) {
   double speed = 0.0;
   for (const auto& [found, curve, name, colour] :
        {std::tuple{"finnie_mm3"sv, "finnie_mm3_per_kg"sv, "Finnie"sv, 0},
-        std::tuple{"oka_mm3"sv, "oka_mm3_per_kg"sv, "Oka"sv, 1}}) {
+        std::tuple{"oka_mm3"sv, "oka_mm3_per_kg"sv, "Oka"sv, 1},
+        std::tuple{"expression_mm3"sv, "expression_mm3_per_kg"sv, "expression"sv, 3}}) {
     Series points{
         .kind = Kind::markers, .name = fmt::format("{}, impacts of the run", name), .colour = colour};
     for (std::size_t r = 0; r < impacts.rows(); ++r) {

@@ -24,6 +24,7 @@ constexpr std::array kQuantities{
     std::pair{"finnie_um3", "Finnie's volume [µm³]"},
     std::pair{"oka_um3", "Oka's volume [µm³]"},
     std::pair{"impact_energy_um3", "volume by impact energy [µm³]"},
+    std::pair{"expression_um3", "volume by the expression [µm³]"},
 };
 
 const std::vector<double>* field(const io::VtpSurface& surface, const char* name) {

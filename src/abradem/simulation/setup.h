@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "abradem/core/units.h"
 #include "abradem/core/vec3.h"
 #include "abradem/geometry/sphere_fit.h"
 
@@ -53,7 +54,7 @@ struct Acceleration {
 };
 
 /// In the order of wear::Mechanism.
-enum class WearLaw { archard, shear_work, finnie, oka, impact_energy };
+enum class WearLaw { archard, shear_work, finnie, oka, impact_energy, expression };
 
 /// Oka's erosion; what is not given is that of SiO2 grains on a metal of the worn material's hardness.
 struct OkaSetup {
@@ -78,6 +79,8 @@ struct WearSetup {
   OkaSetup oka = {};
   double normal_energy_coefficient = 0.0;  ///< k_n: volume per energy lost along the normal [m^3/J]
   double shear_energy_coefficient = 0.0;   ///< k_t: volume per energy lost to friction [m^3/J]
+  std::string expression = {};             ///< volume per step of a contact or per impact; wear::Expression
+  std::vector<core::NamedQuantity> constants = {};  ///< that the expression names
   bool operator==(const WearSetup&) const = default;
 };
 

@@ -167,14 +167,9 @@ void Simulation::choose_accounts() {
       if (p.guide != Guide::none && p.material == w.worn)
         throw InputError(fmt::format("particle '{}' wears by Archard's law alone; \"{}/{}\" has others",
                                      p.name, w.abrader, w.worn));
-    if (laws.normal_energy > 0.0 && pair(index_of(setup_.materials, w.abrader, "material"),
-                                         index_of(setup_.materials, w.worn, "material"))
-                                        .options.any())
-      throw InputError(
-          fmt::format("wear \"{}/{}\": normal_energy_coefficient knows the damper of hertz_mindlin "
-                      "alone; leave it out, or the options of the contact",
-                      w.abrader, w.worn));
-    if (setup_.run.method == Method::quasi_static && (laws.strikes() || laws.normal_energy > 0.0))
+    if (setup_.run.method == Method::quasi_static &&
+        (laws.strikes() || laws.normal_energy > 0.0 ||
+         (laws.expression && laws.expression->names(wear::Symbol::normal_work))))
       throw InputError(fmt::format("wear \"{}/{}\": a balance of forces has no impacts; use method dynamic",
                                    w.abrader, w.worn));
     for (std::size_t k = 0; k < walls_.size(); ++k) {

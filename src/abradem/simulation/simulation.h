@@ -24,6 +24,7 @@ struct Ledger {
   double deposited = 0.0;      ///< booked in the elements; what was piled up on them counts negative
   double swept = 0.0;          ///< lost by the mesh
   double paper = 0.0;          ///< eq. 10-12 over the elements in contact
+  double planes = 0.0;         ///< by the law off analytic planes, which keep their shape; in no other sum
   double displaced = 0.0;      ///< ploughed aside; law + displaced left the groove
   double piled = 0.0;          ///< … of it, found in the ridges
   double unpiled = 0.0;        ///< … of it, that found no place beside the contact
@@ -125,8 +126,10 @@ class Simulation {
   }
   /// Does anything plough (a removed fraction below 1)?
   [[nodiscard]] bool ploughs() const noexcept { return removed_fraction() < 1.0; }
-  /// Volume worn so far by the law, all walls [m^3]; cheap.
+  /// Volume worn so far by the law off all meshes, as in the ledger [m^3]; cheap.
   [[nodiscard]] double law_volume() const noexcept;
+  /// … off analytic planes, which have nothing to lose and stand outside the ledger's balance [m^3].
+  [[nodiscard]] double plane_volume() const noexcept;
   /// Does any wall wear by another law than Archard's?
   [[nodiscard]] bool wears_by_laws() const noexcept;
   /// Does this wall?
@@ -229,6 +232,7 @@ class Simulation {
   void find_contacts();
   void compute_forces();
   void accumulate_wear();
+  void book_wear();
   void deform_walls();
   void integrate();
   void record();
@@ -236,8 +240,8 @@ class Simulation {
   void find_equilibrium(std::size_t p);
   [[nodiscard]] double slip_of(const SphereWall::Touch& touch, const Wall& wall) const noexcept;
   [[nodiscard]] bool wears_by_speed(const Wall& wall) const noexcept;
-  void accumulate_bulk_wear();
-  double book_wear(SphereWall& contact, const WearRecords& records, const WearRecords::Record& record);
+  void book_bulk_wear();
+  double book_contact(SphereWall& contact, const WearRecords& records, const WearRecords::Record& record);
   void find_uses_of_wear();
   void book_elements();
   void limit_energies();

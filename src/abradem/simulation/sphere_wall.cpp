@@ -260,16 +260,17 @@ void SphereWall::watch_impact(Memory& memory, const Touch& touch, const Vec3& v)
       if (dot(m.n, touch.n) > 0.9) m.approaching = false;
 }
 
-/// The damper's power is (D v_n)^2 / D, and D v_n is what it takes off the elastic force.
+/// The damper's power is (D v_n)^2 / D, and of Hertz's contact D v_n is what it takes off the elastic force.
 wear::WorkSample SphereWall::work_of(const Touch& touch, double slip, double mass,
                                      const contact::PairProperties& pair, double dt) noexcept {
-  const bool known = pair.options.damped_hertz();
-  const double damper =
-      known ? contact::damping_coefficient(pair, contact::normal_stiffness(pair, touch.a), mass) : 0.0;
+  const double damper = contact::damping_coefficient(pair, contact::normal_stiffness(pair, touch.a), mass);
   const double by_damper = (touch.elastic_force - touch.force.F_n) / touch.weight;
+  const double power = !pair.options.damped_hertz() ? touch.damper_power
+                       : damper > 0.0               ? by_damper * by_damper / damper
+                                                    : 0.0;
   return {.contact = {std::max(touch.force.F_n, 0.0), slip},
           .shear_work = norm(touch.force.F_t) * slip,
-          .normal_loss = damper > 0.0 ? touch.weight * by_damper * by_damper / damper * dt : 0.0};
+          .normal_loss = touch.weight * power * dt};
 }
 
 /// Does a contact that faces this way last from the step before?
@@ -306,6 +307,7 @@ bool SphereWall::compute_with_options(Touch& touch, const Vec3& v, const SphereS
   contact::full_law_loop(c, o, 8, dt);
   if (pair.options.adhesion > 0.0) touch.a = o.S_t[0] / constants.tangential;
   touch.force.F_n = c.F_n[0];
+  touch.damper_power = o.lost[0];
   touch.force.F_t = Vec3{c.fx[0], c.fy[0], c.fz[0]} - c.F_n[0] * touch.n;
   touch.force.slip = c.slip[0] > 0.0 ? c.slip[0] / o.S_t[0] : 0.0;
   touch.force.v_t = norm(v - dot(v, touch.n) * touch.n);

@@ -54,6 +54,7 @@ struct WearRecords {
     bool nodal = false;                                ///< the shares are loads of candidate nodes
     std::size_t first = 0, end = 0;                    ///< its shares
     wear::MapSample sample;                            ///< but for the volumes
+    wear::ContactLoad load;
   };
   std::vector<Record> record;
   std::vector<WearShare> share;
@@ -91,6 +92,7 @@ class SphereWall {
     int part = 0;                ///< patch or flat set that it stands for
     int nearest = -1;            ///< point contacts: candidate triangle that holds the nearest point
     bool of_point = false;       ///< a point contact, not a patch
+    double damper_power = 0.0;   ///< of the normal damper, of a pair with options in this step [W]
     double weight = 1.0;  ///< `automatic`: share of the rule in the force, which all forces here have [-]
     contact::ContactForce force;
     int memory = -1;  ///< place of its memory in this step; -1: none

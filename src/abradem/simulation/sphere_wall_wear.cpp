@@ -128,13 +128,15 @@ void SphereWall::record_wear(const Wall& wall, const SphereState& sphere, const 
     const double slip = how.by_speed ? touch.force.v_t * how.dt : touch.force.slip;
     if (how.sliding_only && !(touch.force.F_n > 0.0 && slip > 0.0)) continue;
     const Landing landing = land(wall, touch, sphere.radius, pair);
-    records.record.push_back({.contact = how.contact,
-                              .wall = how.wall,
-                              .material = how.material,
-                              .nodal = landing.nodes != nullptr,
-                              .first = records.share.size(),
-                              .end = 0,
-                              .sample = sample_of(touch, sphere, pair, how.dt, slip)});
+    records.record.push_back(
+        {.contact = how.contact,
+         .wall = how.wall,
+         .material = how.material,
+         .nodal = landing.nodes != nullptr,
+         .first = records.share.size(),
+         .end = 0,
+         .sample = sample_of(touch, sphere, pair, how.dt, slip),
+         .load = {norm(touch.force.F_t), touch.force.v_t, how.dt, sphere.radius, sphere.mass, touch.weight}});
     if (landing.nodes != nullptr)
       for (const double load : landing.nodes->at_node) records.share.push_back({.at0 = load});
     else

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a step wears, and the account of it. docs/architecture.md#accumulate_wear
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "abradem/core/error.h"
 #include "abradem/simulation/simulation.h"
 
 namespace abradem::simulation {
@@ -16,6 +19,14 @@ bool Simulation::wears_by_speed(const Wall& wall) const noexcept {
 }
 
 void Simulation::accumulate_wear() {
+  try {
+    book_wear();
+  } catch (const SimulationError& error) {
+    throw SimulationError(fmt::format("step {}, {:.6g} s: {}", steps_, time(), error.what()));
+  }
+}
+
+void Simulation::book_wear() {
   for (std::size_t p = 0; p < particles_.size(); ++p)
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       Wall& wall = walls_[w];
@@ -31,7 +42,7 @@ void Simulation::accumulate_wear() {
                              .material = particles_.material[p]},
                             records_);
         for (const WearRecords::Record& record : records_.record)
-          law_[w] += book_wear(contact, records_, record);
+          law_[w] += book_contact(contact, records_, record);
       } else if (alpha_s != 0.0) {
         const double volume = contact.deposit(wall, alpha_s, particles_.radius[p],
                                               pair(particles_.material[p], wall.material()),
@@ -46,10 +57,10 @@ void Simulation::accumulate_wear() {
       }
       if (tips_[p]) wear_tip(p, w);
     }
-  if (bulk_) accumulate_bulk_wear();
+  if (bulk_) book_bulk_wear();
 }
 
-void Simulation::accumulate_bulk_wear() {
+void Simulation::book_bulk_wear() {
   for (std::size_t w = 0; w < walls_.size(); ++w)
     if (walls_[w].is_plane()) law_[w] += by_laws_[w] != 0 ? plane_wear_by_laws(w) : plane_wear(w);
   std::vector<BulkWalls::NearMesh>& meshes = bulk_->walls().meshes();
@@ -57,7 +68,7 @@ void Simulation::accumulate_bulk_wear() {
   for (const WearRecords& records : bulk_->walls().wear())
     for (const WearRecords::Record& record : records.record) {
       BulkWalls::NearMesh& m = meshes[static_cast<std::size_t>(record.contact)];
-      const double volume = book_wear(*m.contact, records, record);
+      const double volume = book_contact(*m.contact, records, record);
       m.owes = m.owes || record.nodal;
       if (ploughs())
         groove[static_cast<std::size_t>(record.contact)] += volume;
@@ -74,8 +85,8 @@ void Simulation::accumulate_bulk_wear() {
 
 /// Books one contact by the laws of its pair. @return the law's volume; where they plough, that of the groove
 /// [m^3]
-double Simulation::book_wear(SphereWall& contact, const WearRecords& records,
-                             const WearRecords::Record& record) {
+double Simulation::book_contact(SphereWall& contact, const WearRecords& records,
+                                const WearRecords::Record& record) {
   const auto w = static_cast<std::size_t>(record.wall);
   const int material = record.material;
   wear::MapSample sample = record.sample;
@@ -86,6 +97,7 @@ double Simulation::book_wear(SphereWall& contact, const WearRecords& records,
   } else {
     const wear::Laws& laws = wear_laws(material, walls_[w].material());
     wear::add_work(laws, sample.work, sample.volumes);
+    wear::add_expression(laws, sample.work, record.load, sample.volumes);
     if (sample.strikes) {
       wear::add_impact(laws, sample.impact, sample.volumes);
       if (laws.strikes()) account_[w].impacts.add(sample.impact, sample.volumes);
@@ -133,19 +145,24 @@ double Simulation::plane_wear_by_laws(std::size_t w) {
     const auto& s = bulk_->spheres().row[static_cast<std::size_t>(plane.sphere[k])];
     const auto material = static_cast<int>(s.material);
     const wear::Laws& laws = wear_laws(material, walls_[w].material());
-    const double elastic = contact::hertz_force(pair(material, walls_[w].material()), s.radius,
-                                                s.radius - (dot(n, s.position()) - level));
+    const contact::PairProperties& properties = pair(material, walls_[w].material());
+    const double elastic =
+        contact::hertz_force(properties, s.radius, s.radius - (dot(n, s.position()) - level));
     const Vec3 arm = -s.radius * n;
     Vec3 v = s.velocity() + cross(s.spin(), arm) - pose.velocity_at(s.position() + arm);
     if (walls_[w].is_belt()) v -= pose.turn(walls_[w].belt_velocity(walls_[w].setup().mesh.normal));
     const double v_n = dot(v, n);
     const Vec3 F_t = plane.load[k].force() - plane.F_n[k] * n;
     wear::MechanismVolumes volumes{};
-    wear::add_work(laws,
-                   {.contact = {std::max(plane.F_n[k], 0.0), plane.slip[k]},
-                    .shear_work = norm(F_t) * plane.slip[k],
-                    .normal_loss = std::max((elastic - plane.F_n[k]) * v_n * dt_, 0.0)},
-                   volumes);
+    const wear::WorkSample work{.contact = {std::max(plane.F_n[k], 0.0), plane.slip[k]},
+                                .shear_work = norm(F_t) * plane.slip[k],
+                                .normal_loss = properties.options.damped_hertz()
+                                                   ? std::max((elastic - plane.F_n[k]) * v_n * dt_, 0.0)
+                                                   : plane.lost[k]};
+    wear::add_work(laws, work, volumes);
+    if (laws.expression)
+      wear::add_expression(laws, work,
+                           {norm(F_t), norm(v - v_n * n), dt_, s.radius, 1.0 / s.inverse_mass, 1.0}, volumes);
     if (plane.fresh[k] != 0 && v_n < 0.0) {
       const double speed = norm(v);
       const wear::Impact impact{speed, std::asin(std::min(1.0, -v_n / speed)), 1.0 / s.inverse_mass,
@@ -215,7 +232,15 @@ void Simulation::book_elements() {
 
 double Simulation::law_volume() const noexcept {
   double sum = 0.0;
-  for (const double v : law_) sum += v;
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    if (!walls_[w].is_plane()) sum += law_[w];
+  return sum;
+}
+
+double Simulation::plane_volume() const noexcept {
+  double sum = 0.0;
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    if (walls_[w].is_plane()) sum += law_[w];
   return sum;
 }
 
@@ -224,7 +249,10 @@ Ledger Simulation::ledger() {
   double conserving_law = 0.0, conserving_swept = 0.0;
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     const Wall& wall = walls_[w];
-    if (wall.is_plane()) continue;
+    if (wall.is_plane()) {
+      ledger.planes += law_[w];
+      continue;
+    }
     double unpiled = bulk_ ? bulk_->walls().unplaced(w) : 0.0;
     for (std::size_t p = 0; p < particles_.size(); ++p)
       if (wall.setup().deformation == DeformationRule::conserving)

@@ -40,10 +40,13 @@ double oka_volume(const OkaLaw& law, const Impact& impact) noexcept {
   return impact.mass * at_90 * oka_function(law, impact.angle);
 }
 
-void add_impact(const Laws& laws, const Impact& impact, MechanismVolumes& volumes) noexcept {
+void add_impact(const Laws& laws, const Impact& impact, MechanismVolumes& volumes) {
   if (laws.finnie)
     volumes[static_cast<std::size_t>(Mechanism::finnie)] += finnie_volume(*laws.finnie, impact);
   if (laws.oka) volumes[static_cast<std::size_t>(Mechanism::oka)] += oka_volume(*laws.oka, impact);
+  if (laws.expression && laws.expression->by_impact())
+    volumes[static_cast<std::size_t>(Mechanism::expression)] +=
+        laws.of_expression * laws.expression->of_impact(impact);
 }
 
 void ImpactSpectrum::add(const Impact& impact, const MechanismVolumes& volumes) noexcept {
@@ -56,6 +59,7 @@ void ImpactSpectrum::add(const Impact& impact, const MechanismVolumes& volumes) 
   bin.diameter += impact.mass * impact.diameter;
   bin.finnie += volumes[static_cast<std::size_t>(Mechanism::finnie)];
   bin.oka += volumes[static_cast<std::size_t>(Mechanism::oka)];
+  bin.expression += volumes[static_cast<std::size_t>(Mechanism::expression)];
 }
 
 std::uint64_t ImpactSpectrum::count() const noexcept {

@@ -4,17 +4,23 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 #include "abradem/wear/archard.h"
+#include "abradem/wear/expression.h"
 
 /// Laws of wear beside Archard's, as pure functions of plain samples of a contact.   docs/theory/wear.md#laws
 namespace abradem::wear {
 
 /// In the order of simulation::WearLaw.
-enum class Mechanism { archard, shear_work, finnie, oka, impact_energy };
-inline constexpr std::size_t kMechanisms = 5;
+enum class Mechanism { archard, shear_work, finnie, oka, impact_energy, expression };
+inline constexpr std::size_t kMechanisms = 6;
+/// As the case, the tables and run.json call them.
+inline constexpr std::array<std::string_view, kMechanisms> kMechanismNames{
+    "archard", "shear_work", "finnie", "oka", "impact_energy", "expression"};
 /// Volume by mechanism [m^3].
 using MechanismVolumes = std::array<double, kMechanisms>;
 
@@ -71,12 +77,16 @@ struct Laws {
   double shear_energy = 0.0;   ///< k_t: … by friction [m^3/J]
   std::optional<FinnieLaw> finnie;
   std::optional<OkaLaw> oka;
+  std::shared_ptr<const Expression> expression;
+  double of_expression = 1.0;  ///< its volumes count so many times
 
   [[nodiscard]] bool only_archard() const noexcept {
-    return shear_work == 0.0 && normal_energy == 0.0 && shear_energy == 0.0 && !strikes();
+    return shear_work == 0.0 && normal_energy == 0.0 && shear_energy == 0.0 && !expression && !strikes();
   }
   /// Does any law count impacts one by one?
-  [[nodiscard]] bool strikes() const noexcept { return finnie || oka; }
+  [[nodiscard]] bool strikes() const noexcept {
+    return finnie || oka || (expression && expression->by_impact());
+  }
 };
 
 /// Volumes worn by what acts all the time, and added to `volumes`.
@@ -87,8 +97,15 @@ inline void add_work(const Laws& laws, const WorkSample& sample, MechanismVolume
   volumes[static_cast<std::size_t>(Mechanism::impact_energy)] +=
       laws.normal_energy * sample.normal_loss + laws.shear_energy * sample.shear_work;
 }
-/// … by one impact.
-void add_impact(const Laws& laws, const Impact& impact, MechanismVolumes& volumes) noexcept;
+/// … by an expression that is about steps.   @throws SimulationError as Expression::of_step
+inline void add_expression(const Laws& laws, const WorkSample& sample, const ContactLoad& load,
+                           MechanismVolumes& volumes) {
+  if (laws.expression && !laws.expression->by_impact())
+    volumes[static_cast<std::size_t>(Mechanism::expression)] +=
+        laws.of_expression * laws.expression->of_step(sample, load);
+}
+/// … by one impact.   @throws SimulationError as Expression::of_impact
+void add_impact(const Laws& laws, const Impact& impact, MechanismVolumes& volumes);
 [[nodiscard]] inline double total(const MechanismVolumes& volumes) noexcept {
   double sum = 0.0;
   for (const double v : volumes) sum += v;
@@ -103,12 +120,13 @@ class ImpactSpectrum {
     std::uint64_t count = 0;
     /// Of the impacts: mass [kg]; mass-weighted sums of the angle [rad kg], speed [m/s kg] and diameter [m
     /// kg]; volume worn [m^3].
-    double mass = 0.0, angle = 0.0, speed = 0.0, diameter = 0.0, finnie = 0.0, oka = 0.0;
+    double mass = 0.0, angle = 0.0, speed = 0.0, diameter = 0.0, finnie = 0.0, oka = 0.0, expression = 0.0;
 
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
       archive("count", self.count)("mass", self.mass)("angle", self.angle)("speed", self.speed);
       archive("diameter", self.diameter)("finnie", self.finnie)("oka", self.oka);
+      archive("expression", self.expression);
     }
   };
   [[nodiscard]] static double low(std::size_t bin) noexcept {

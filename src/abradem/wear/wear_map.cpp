@@ -17,6 +17,7 @@ WearMap::Element& WearMap::Element::operator+=(const Element& other) noexcept {
   sliding += other.sliding;
   finnie += other.finnie;
   oka += other.oka;
+  expression += other.expression;
   peak_pressure = std::max(peak_pressure, other.peak_pressure);
   impacts += other.impacts;
   return *this;
@@ -49,6 +50,7 @@ void WearMap::Booking::add(std::size_t element, double share, double area) noexc
   e.sliding += share * (s_.weight * contact.slip);
   e.finnie += share * s_.volumes[static_cast<std::size_t>(Mechanism::finnie)];
   e.oka += share * s_.volumes[static_cast<std::size_t>(Mechanism::oka)];
+  e.expression += share * s_.volumes[static_cast<std::size_t>(Mechanism::expression)];
   e.peak_pressure =
       std::max(e.peak_pressure, contact.F_n / s_.weight * share / std::min(area, s_.hertz_area));
   if (s_.strikes) {
@@ -87,6 +89,7 @@ MechanismVolumes mapped_volumes(const Laws& laws, const WearMap::Element& e) noe
       laws.normal_energy * e.normal_work + laws.shear_energy * e.shear_work;
   volumes[static_cast<std::size_t>(Mechanism::finnie)] = e.finnie;
   volumes[static_cast<std::size_t>(Mechanism::oka)] = e.oka;
+  volumes[static_cast<std::size_t>(Mechanism::expression)] = e.expression;
   return volumes;
 }
 

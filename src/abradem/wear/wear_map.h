@@ -148,19 +148,19 @@ class WearMap {
   /// What one element has suffered so far. Sums over contacts and steps, each times the share of the contact
   /// that falls on the element (docs/theory/wear.md#footprint); the shares of a contact add up to one.
   struct Element {
-    double force_sliding = 0.0;      ///< F_n s: what Archard's coefficient multiplies [J]
-    double shear_work = 0.0;         ///< of friction [J]
-    double normal_work = 0.0;        ///< lost to the normal damper [J]
-    double sliding = 0.0;            ///< s [m]
-    double finnie = 0.0, oka = 0.0;  ///< worn by these laws [m^3]
-    double peak_pressure = 0.0;      ///< largest of F_n share / min(area of the element, Hertz's circle) [Pa]
-    ImpactSums impacts;              ///< by their shares; counted: those whose largest fell here
+    double force_sliding = 0.0;                        ///< F_n s: what Archard's coefficient multiplies [J]
+    double shear_work = 0.0;                           ///< of friction [J]
+    double normal_work = 0.0;                          ///< lost to the normal damper [J]
+    double sliding = 0.0;                              ///< s [m]
+    double finnie = 0.0, oka = 0.0, expression = 0.0;  ///< worn by these laws [m^3]
+    double peak_pressure = 0.0;  ///< largest of F_n share / min(area of the element, Hertz's circle) [Pa]
+    ImpactSums impacts;          ///< by their shares; counted: those whose largest fell here
 
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
       archive("force_sliding", self.force_sliding)("shear_work", self.shear_work);
       archive("normal_work", self.normal_work)("sliding", self.sliding)("finnie", self.finnie);
-      archive("oka", self.oka);
+      archive("oka", self.oka)("expression", self.expression);
       archive("peak_pressure", self.peak_pressure)("impacts", self.impacts);
     }
     Element& operator+=(const Element& other) noexcept;
