@@ -173,6 +173,30 @@ TEST(Bulk, WearOnAMovingDeformingWallIsAllAccountedForOnAnyNumberOfThreads) {
   omp_set_num_threads(before);
 }
 
+/// Ten layers of ten thousand on a plate that shakes, wears and changes its shape at every step.
+TEST(Bulk, WearOfAHundredThousandGrainsIsAllAccountedFor) {
+  constexpr double R = 1e-3, pitch = 2.02 * R;
+  simulation::Setup setup = shaken_plate();
+  setup.insertions.resize(1);
+  setup.insertions[0].placed = lattice(100'000, 100, R, pitch, 0.2);
+  for (PlacedSphere& s : setup.insertions[0].placed) {
+    s.position -= Vec3{50 * pitch, 50 * pitch, 0.0};
+    s.velocity.z -= 0.2;
+  }
+  Simulation run(setup);
+  for (int k = 0; k < 120; ++k) run.step();
+  const Ledger ledger = run.ledger();
+  EXPECT_EQ(run.bulk_state().present, 100'000u);
+  EXPECT_GT(run.bulk_state().wall_contacts, 300u);
+  EXPECT_GT(
+      std::ranges::count_if(run.walls()[0].surface().element_volume(), [](double v) { return v > 0.0; }),
+      3000);
+  EXPECT_GT(ledger.law, 0.0);
+  EXPECT_LT(ledger.residual, 1e-9);
+  RecordProperty("residual", std::to_string(1e12 * ledger.residual) + "e-12");
+  RecordProperty("wall_contacts", std::to_string(run.bulk_state().wall_contacts));
+}
+
 /// Every contact piles up beside itself what it ploughs aside.
 TEST(Bulk, WhatManyGrainsPloughAsideIsAllAccountedForOnAnyNumberOfThreads) {
   const int before = omp_get_max_threads();
