@@ -53,6 +53,9 @@ INSTANTIATE_TEST_SUITE_P(
         ReadyCase{"rotating-drum",
                   "--set insertion.charge.number=60 --set run.end='0.07 rev' --set output.every='0.01 rev'",
                   true},
+        ReadyCase{"drum-profile",
+                  "--set insertion.charge.number=300 --set run.end='0.25 s' --set output.every='50 ms'",
+                  true},
         ReadyCase{"angle-of-repose", "--set run.end='0.12 s' --set output.every='20 ms'"},
         ReadyCase{"pebbles", "--set run.end='0.1 s' --set output.every='20 ms'"}));
 
