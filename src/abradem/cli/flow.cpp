@@ -24,8 +24,9 @@ double quantity(std::string_view text, const char* option, const core::Dimension
   try {
     const core::Quantity q = core::parse_quantity(text);
     if (q.dimension == dimension) return q.value;
-    throw InputError(fmt::format("{} {}: expected {} such as \"{}\"", option, text, core::describe(dimension),
-                                 core::example(dimension)));
+    const std::string_view example = core::example(dimension);
+    throw InputError(fmt::format("{} {}: expected {}{}", option, text, core::describe(dimension),
+                                 example.empty() ? "" : fmt::format(" such as \"{}\"", example)));
   } catch (const core::UnitError& error) {
     throw InputError(fmt::format("{} {}: {}", option, text, error.what()));
   }
