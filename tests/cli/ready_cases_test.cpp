@@ -54,7 +54,10 @@ INSTANTIATE_TEST_SUITE_P(
                   "--set insertion.charge.number=60 --set run.end='0.07 rev' --set output.every='0.01 rev'",
                   true},
         ReadyCase{"drum-profile",
-                  "--set insertion.charge.number=300 --set run.end='0.25 s' --set output.every='50 ms'",
+                  "--set insertion.charge.number=300 --set insertion.charge.volume.radius='45 mm' --set "
+                  "'insertion.charge.volume.base=[0,\"-5 mm\",\"-70 mm\"]' --set "
+                  "'insertion.charge.volume.top=[0,\"5 mm\",\"-70 mm\"]' --set run.end='0.15 s' --set "
+                  "output.every='50 ms'",
                   true},
         ReadyCase{"angle-of-repose", "--set run.end='0.12 s' --set output.every='20 ms'"},
         ReadyCase{"pebbles", "--set run.end='0.1 s' --set output.every='20 ms'"}));
