@@ -19,7 +19,7 @@ import struct
 import subprocess
 import tempfile
 
-from run import DENSITY, FRICTION, POISSON, RADIUS, RESTITUTION, SKIN, STEP, YOUNG, find
+from run import DENSITY, FRICTION, POISSON, RADIUS, RESTITUTION, SKIN, STEP, YOUNG, find, print_table
 
 DRUM_RADIUS, DRUM_LENGTH = 0.15, 0.152
 STEEL_YOUNG, STEEL_POISSON = 2 * 7.8e10 * 1.3, 0.3
@@ -138,9 +138,7 @@ def main():
             rows.append(run_ours(args, triangles, state))
             rows.append(run_liggghts(args, triangles, state))
     print(f"drum, 1 core, {args.runs} runs of {args.steps} steps of {STEP:.4g} s, wall time")
-    width = [max(len(row[k]) for row in rows) for k in range(5)]
-    for row in rows:
-        print("  ".join(cell.ljust(w) for cell, w in zip(row, width)).rstrip())
+    print_table(rows)
 
 
 if __name__ == "__main__":
