@@ -100,7 +100,7 @@ TEST(InNumbers, SlidesAndRollsAreThoseOfASphereWithAName) {
           pair.rolling_model = model;
           simulation::Setup setup = scene(floor, pair, {degrees == 0.0 ? 0.1 : 0.0, 0.0, 0.0}, 0.0);
           setup.run.gravity = {9.81 * std::sin(a), 0.0, -9.81 * std::cos(a)};
-          worst = std::max(worst, difference(setup, 0.05, 0.1));
+          worst = std::max(worst, difference(setup, 0.03, 0.1));
         }
     EXPECT_LT(worst, 1e-9) << floor.name;
     RecordProperty(floor.name, std::to_string(1e12 * worst) + "e-12");
