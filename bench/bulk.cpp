@@ -4,10 +4,13 @@
 //   abradem_bulk make N POSITIONS.csv [steps]      settle N spheres of 6 mm in a box about as high as wide
 //   abradem_bulk time POSITIONS.csv [steps] [runs] go on from there, and time it
 //   abradem_bulk count POSITIONS.csv               contacts among the spheres and their elastic energy
-//   abradem_bulk drum TRIANGLES [steps] [runs] [warm]  20,000 spheres in a turning drum that wears and
-//   deforms
+//   abradem_bulk drum TRIANGLES [steps] [runs] [warm] [STATE.csv]  20,000 spheres in a turning drum that
+//   wears
+//                                                  and deforms
+//   abradem_bulk clumps N [steps] [runs] [warm]    N particles of three spheres each, poured into a box
 //
 // POSITIONS.csv holds the box's side, then x, y, z of every sphere, in metres: other codes start from it too.
+// STATE.csv: x, y, z, velocity and spin of every sphere when the timing begins.
 #include <fmt/format.h>
 #include <omp.h>
 #include <sys/resource.h>
@@ -125,36 +128,72 @@ int count(const std::string& path) {
   return 0;
 }
 
-int time(const std::string& path, long steps, long runs) {
-  Simulation run(read_box(path));
-  for (int k = 0; k < 200; ++k) run.step();
+/// Particle-steps per second of several runs, ascending.
+struct Rates {
   std::vector<double> wall, user;
-  const std::uint64_t rebuilds = run.bulk()->list().rebuilds();
-  const BulkState s = run.bulk_state();
-  const double work = static_cast<double>(s.present) * static_cast<double>(steps);
+};
+
+Rates time_runs(Simulation& run, long steps, long runs) {
+  Rates rates;
+  const double work = static_cast<double>(run.bulk_state().present) * static_cast<double>(steps);
   for (long r = 0; r < runs; ++r) {
     const auto start = std::chrono::steady_clock::now();
     const double before = user_seconds();
     for (long k = 0; k < steps; ++k) run.step();
-    user.push_back(work / (user_seconds() - before));
-    wall.push_back(work / std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    rates.user.push_back(work / (user_seconds() - before));
+    rates.wall.push_back(work /
+                         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  std::ranges::sort(user);
-  std::ranges::sort(wall);
+  std::ranges::sort(rates.user);
+  std::ranges::sort(rates.wall);
+  return rates;
+}
+
+/// Times a run from its present state, and prints what there was to do. @param what "spheres"
+int time_and_print(Simulation& run, long steps, long runs, const std::string& what) {
+  const std::uint64_t rebuilds = run.bulk()->list().rebuilds();
+  const BulkState s = run.bulk_state();
+  const auto [wall, user] = time_runs(run, steps, runs);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   fmt::print(
-      "{} spheres, {} threads, {} runs of {} steps of {:.3g} s\n"
+      "{} {}, {} threads, {} runs of {} steps of {:.3g} s\n"
       "particle-steps per second of wall time: median {:.3g}, best {:.3g}; of user time: median {:.3g}, best "
       "{:.3g}\n"
       "at the start {} contacts among spheres, {} with walls, elastic energy {:.9g} J\n"
-      "{:.2f} listed pairs a sphere, {} rebuilds, at most {:.0f} bytes a sphere, state {:016x}\n",
-      s.present, omp_get_max_threads(), runs, steps, run.time_step(), wall[wall.size() / 2], wall.back(),
-      user[user.size() / 2], user.back(), s.pair_contacts, s.wall_contacts, s.elastic_energy,
+      "{:.2f} listed pairs a particle, {} rebuilds, at most {:.0f} bytes a particle, state {:016x}\n",
+      s.present, what, omp_get_max_threads(), runs, steps, run.time_step(), wall[wall.size() / 2],
+      wall.back(), user[user.size() / 2], user.back(), s.pair_contacts, s.wall_contacts, s.elastic_energy,
       static_cast<double>(run.bulk()->list().pairs()) / static_cast<double>(s.present),
       run.bulk()->list().rebuilds() - rebuilds,
       1024.0 * static_cast<double>(usage.ru_maxrss) / static_cast<double>(s.present), run.state_hash());
   return 0;
+}
+
+int time(const std::string& path, long steps, long runs) {
+  Simulation run(read_box(path));
+  for (int k = 0; k < 200; ++k) run.step();
+  return time_and_print(run, steps, runs, "spheres");
+}
+
+/// A flat, symmetric trefoil of overlapping spheres, as large as a sphere of the other benchmarks.
+int clumps(std::size_t count, long steps, long runs, long warm) {
+  const double side = std::cbrt(static_cast<double>(count)) * 2.0 * kRadius * 1.2;
+  Setup setup = open_box(side);
+  ShapeSetup trefoil;
+  trefoil.name = "trefoil";
+  for (int k = 0; k < 3; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / 3.0;
+    trefoil.spheres.push_back({{0.7 * std::cos(angle), 0.7 * std::sin(angle), 0.0}, 1.0});
+  }
+  setup.shapes = {trefoil};
+  setup.insertions[0].shape = trefoil.name;
+  // As far apart as their longest way through, so that no turn makes two overlap.
+  setup.insertions[0].placed = loose_lattice(count, side / 1.5);
+  for (PlacedSphere& s : setup.insertions[0].placed) s.position = 1.5 * s.position;
+  Simulation run(setup);
+  for (long k = 0; k < warm; ++k) run.step();
+  return time_and_print(run, steps, runs, "clumps of 3 spheres");
 }
 
 constexpr double kDrumRadius = 0.15, kDrumLength = 0.152;
@@ -182,7 +221,15 @@ geometry::TriangleMesh cylinder(std::size_t triangles) {
   return mesh;
 }
 
-int drum(std::size_t triangles, long steps, long runs, long warm) {
+void write_state(const Simulation& run, const std::string& path) {
+  std::ofstream file(path);
+  for (const contact::SphereRow& p : run.bulk()->spheres().row)
+    file << fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", p.x, p.y,
+                        p.z, p.vx, p.vy, p.vz, p.spin().x, p.spin().y, p.spin().z);
+  if (!file.flush()) throw IoError(fmt::format("{}: cannot be written", path));
+}
+
+int drum(std::size_t triangles, long steps, long runs, long warm, const std::string& state_file) {
   Setup setup = open_box(1.0);
   setup.walls.resize(2);
   setup.walls[0].material = setup.walls[1].material = "steel";
@@ -215,15 +262,9 @@ int drum(std::size_t triangles, long steps, long runs, long warm) {
   setup.insertions[0].placed = spheres;
   Simulation run(setup, [&](const MeshSetup&, std::uint64_t) { return cylinder(triangles); });
   for (long k = 0; k < warm; ++k) run.step();
-  std::vector<double> wall;
+  if (!state_file.empty()) write_state(run, state_file);
   const BulkState s = run.bulk_state();
-  for (long r = 0; r < runs; ++r) {
-    const auto start = std::chrono::steady_clock::now();
-    for (long k = 0; k < steps; ++k) run.step();
-    wall.push_back(static_cast<double>(s.present) * static_cast<double>(steps) /
-                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  std::ranges::sort(wall);
+  const std::vector<double> wall = time_runs(run, steps, runs).wall;
   const Ledger ledger = run.ledger();
   fmt::print(
       "drum of {} triangles, {} spheres, {} threads, {} runs of {} steps after {}\n"
@@ -246,9 +287,13 @@ int main(int argc, char** argv) {
   if (what == "time" && argc > 2) return time(argv[2], number(3, 200), number(4, 5));
   if (what == "count" && argc > 2) return count(argv[2]);
   if (what == "drum" && argc > 2)
-    return drum(static_cast<std::size_t>(number(2, 0)), number(3, 200), number(4, 5), number(5, 10000));
-  fmt::print(stderr,
-             "usage: abradem_bulk make N POSITIONS.csv [steps] | time POSITIONS.csv [steps] [runs] | count "
-             "POSITIONS.csv | drum TRIANGLES [steps] [runs] [warm]\n");
+    return drum(static_cast<std::size_t>(number(2, 0)), number(3, 200), number(4, 5), number(5, 10000),
+                argc > 6 ? argv[6] : "");
+  if (what == "clumps" && argc > 2)
+    return clumps(static_cast<std::size_t>(number(2, 0)), number(3, 200), number(4, 5), number(5, 40000));
+  fmt::print(
+      stderr,
+      "usage: abradem_bulk make N POSITIONS.csv [steps] | time POSITIONS.csv [steps] [runs] | count "
+      "POSITIONS.csv | drum TRIANGLES [steps] [runs] [warm] [STATE.csv] | clumps N [steps] [runs] [warm]\n");
   return 2;
 }

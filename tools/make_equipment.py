@@ -68,6 +68,14 @@ def drum(radius, length, lifters, lifter, pitch):
     return quads([[(x, -0.5 * length + length * i / rows, z) for x, z in profile] for i in range(rows + 1)])
 
 
+def cylinder(radius, length, pitch):
+    """A smooth drum around the y axis."""
+    n, rows = round(2 * math.pi * radius / pitch), round(length / pitch)
+    circle = [(radius * math.cos(2 * math.pi * i / n), radius * math.sin(2 * math.pi * i / n)) for i in range(n)]
+    circle.append(circle[0])
+    return quads([[(x, -0.5 * length + length * i / rows, z) for x, z in circle] for i in range(rows + 1)])
+
+
 if __name__ == "__main__":
     folder = pathlib.Path(sys.argv[1])
     slope, length, width = math.radians(50), 300, 150
@@ -76,3 +84,4 @@ if __name__ == "__main__":
               plate((-0.5 * length * c, -0.5 * width, 0.5 * length * s), (length * c, 0, -length * s), (0, width, 0), 6))
     write_stl(folder / "chute-sides.stl", chute(slope, length, width, 120))
     write_stl(folder / "drum.stl", drum(100, 40, 8, 12, 4))
+    write_stl(folder / "smooth-drum.stl", cylinder(120, 24, 6))

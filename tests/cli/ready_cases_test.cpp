@@ -53,8 +53,31 @@ INSTANTIATE_TEST_SUITE_P(
         ReadyCase{"rotating-drum",
                   "--set insertion.charge.number=60 --set run.end='0.07 rev' --set output.every='0.01 rev'",
                   true},
+        ReadyCase{"drum-profile",
+                  "--set insertion.charge.number=300 --set insertion.charge.volume.radius='45 mm' --set "
+                  "'insertion.charge.volume.base=[0,\"-5 mm\",\"-70 mm\"]' --set "
+                  "'insertion.charge.volume.top=[0,\"5 mm\",\"-70 mm\"]' --set run.end='0.15 s' --set "
+                  "output.every='50 ms'",
+                  true},
         ReadyCase{"angle-of-repose", "--set run.end='0.12 s' --set output.every='20 ms'"},
         ReadyCase{"pebbles", "--set run.end='0.1 s' --set output.every='20 ms'"}));
+
+/// Next to nothing is worn: what rounding makes of it is no fault, and nobody is warned.
+TEST(DrumProfile, LedgerOfNextToNothingCloses) {
+  const ScratchFolder scratch;
+  const Outcome outcome = run_program(
+      "run " ABRADEM_SOURCE_DIR
+      "/cases/drum-profile.toml --threads 1 --no-report -o out --set insertion.charge.number=300 --set "
+      "insertion.charge.volume.radius='45 mm' --set 'insertion.charge.volume.base=[0,\"-5 mm\",\"-70 mm\"]' "
+      "--set 'insertion.charge.volume.top=[0,\"5 mm\",\"-70 mm\"]' --set run.end='0.1 s' --set "
+      "'wear.\"glass/steel\".wear_coefficient=1e-14 1/Pa'",
+      scratch.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err.find("does not close"), std::string::npos) << outcome.err;
+  const json ledger = json::parse(read_file(scratch.path() / "out/run.json"))["ledger"];
+  EXPECT_GT(ledger["law_volume_mm3"].get<double>(), 0.0);
+  EXPECT_GT(ledger["residual_relative"].get<double>(), 1e-9);
+}
 
 /// Fitted shapes are part of a checkpoint: a run goes on without the mesh to the bits of one that never
 /// stopped.

@@ -272,6 +272,39 @@ TEST(Resume, OfParticlesInNumbersGoesOnPastTheEnd) {
   EXPECT_GT(table.column("inserted").back(), 50.0);
 }
 
+/// The mesh and the table of a motion are part of a checkpoint: their files are gone when the run is taken
+/// up.
+TEST(Resume, OfAWallOfCombinedMotionsGoesOnWithoutItsFiles) {
+  const ScratchFolder scratch;
+  write_feed(scratch.path());
+  write_file(scratch.path() / "ride.csv",
+             "time_s,x_mm,z_mm,angle_deg\n0,0,0,0\n0.004,1,0.2,1\n0.009,0,0,0\n");
+  std::string text = read_file(scratch.path() / "feed.toml");
+  const std::string shaken =
+      "motion = { kind = \"oscillation\", amplitude = [\"1 mm\", 0, 0], frequency = \"50 Hz\" }";
+  const std::size_t at = text.find(shaken);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, shaken.size(),
+               "motion = [{ kind = \"rotation\", rate = \"180 deg/s\" },\n"
+               "          { kind = \"table\", axis = [0, 1, 0], file = \"ride.csv\", after = \"repeat\" },\n"
+               "          { kind = \"oscillation\", amplitude = [\"1 mm\", 0, 0], frequency = \"50 Hz\" }]");
+  const std::string plate = "shape = \"plate\", length = \"20 mm\", width = \"20 mm\", size = \"2 mm\"";
+  ASSERT_NE(text.find(plate), std::string::npos);
+  text.replace(text.find(plate), plate.size(), "file = \"plate.obj\", unit = \"mm\"");
+  write_file(scratch.path() / "plate.obj", "v -10 -10 0\nv 10 -10 0\nv 10 10 0\nv -10 10 0\nf 1 2 3 4\n");
+  write_file(scratch.path() / "feed.toml", text);
+  const std::string run = "run feed.toml --quiet --no-report --threads 1 --set output.every='10 ms'";
+  const Outcome whole = run_program(run + " -o whole", scratch.path());
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  ASSERT_EQ(run_program(run + " --set run.end='17 ms' -o short", scratch.path()).exit_code, 0);
+  fs::remove(scratch.path() / "ride.csv");
+  fs::remove(scratch.path() / "plate.obj");
+  const Outcome rest =
+      run_program("resume short --quiet --no-report --threads 2 --set run.end='30 ms'", scratch.path());
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  expect_same(scratch.path() / "whole", scratch.path() / "short");
+}
+
 TEST(Resume, OfParticlesInNumbersAfterKillsGivesTheSameBits) {
   core::RandomStream random(21, 1);
   const ScratchFolder scratch;

@@ -173,6 +173,65 @@ TEST(Bulk, WearOnAMovingDeformingWallIsAllAccountedForOnAnyNumberOfThreads) {
   omp_set_num_threads(before);
 }
 
+/// A smooth bed on a plate that slides to and fro under it: V = alpha W 4 A a cycle, which is h = alpha p L
+/// for the mean.
+TEST(Bulk, ABedWearsThePlateThatSlidesUnderIt) {
+  const OneThread alone;
+  constexpr double R = 3e-3, side = 10 * 2.06 * R, amplitude = 2e-3, frequency = 25.0, alpha = 1e-9;
+  simulation::Setup setup = grains(0.3, 0.0, 0.0);
+  WallSetup plate = plane("plate", {}, {});
+  plate.mesh = {};
+  plate.mesh.shape = MeshShape::plate;
+  plate.mesh.length = plate.mesh.width = side + 6.0 * R;
+  plate.mesh.position = {0.5 * side, 0.5 * side, 0.0};
+  plate.mesh.size = 4e-3;
+  plate.motion.kind = MotionKind::oscillation;
+  plate.motion.amplitude = {amplitude, 0.0, 0.0};
+  plate.motion.frequency = frequency;
+  plate.contact = ContactRule::automatic;
+  plate.deformation = DeformationRule::conserving;
+  setup.walls = {plate};
+  setup.wear = {{.abrader = "grain", .worn = "grain", .wear_coefficient = alpha}};
+  setup.run.gravity = {0.0, 0.0, -9.81};
+  setup.run.time_step = {1.0 / frequency / 1250.0, false};  // 32 us, a fifth of the Rayleigh time
+  setup.insertions[0].placed = lattice(500, 10, R, 2.06 * R, 0.1);
+  setup.domain = DomainSetup{{0, 0, -1}, {side, side, 1}, Outside::stop, Periodic::xy};
+  Simulation run(setup);
+  while (run.steps() < 10 * 1250) run.step();
+  const double before = run.law_volume();
+  while (run.steps() < 15 * 1250) run.step();
+  const double weight = run.bulk_state().mass * 9.81, expected = alpha * weight * 4.0 * amplitude * 5.0;
+  const double error = (run.law_volume() - before) / expected - 1.0;
+  EXPECT_LT(std::abs(error), 0.005);
+  EXPECT_LT(run.ledger().residual, 1e-9);
+  RecordProperty("error", std::to_string(error));
+  RecordProperty("residual", std::to_string(1e12 * run.ledger().residual) + "e-12");
+}
+
+/// Ten layers of ten thousand on a plate that shakes, wears and changes its shape at every step.
+TEST(Bulk, WearOfAHundredThousandGrainsIsAllAccountedFor) {
+  constexpr double R = 1e-3, pitch = 2.02 * R;
+  simulation::Setup setup = shaken_plate();
+  setup.insertions.resize(1);
+  setup.insertions[0].placed = lattice(100'000, 100, R, pitch, 0.2);
+  for (PlacedSphere& s : setup.insertions[0].placed) {
+    s.position -= Vec3{50 * pitch, 50 * pitch, 0.0};
+    s.velocity.z -= 0.2;
+  }
+  Simulation run(setup);
+  for (int k = 0; k < 120; ++k) run.step();
+  const Ledger ledger = run.ledger();
+  EXPECT_EQ(run.bulk_state().present, 100'000u);
+  EXPECT_GT(run.bulk_state().wall_contacts, 300u);
+  EXPECT_GT(
+      std::ranges::count_if(run.walls()[0].surface().element_volume(), [](double v) { return v > 0.0; }),
+      3000);
+  EXPECT_GT(ledger.law, 0.0);
+  EXPECT_LT(ledger.residual, 1e-9);
+  RecordProperty("residual", std::to_string(1e12 * ledger.residual) + "e-12");
+  RecordProperty("wall_contacts", std::to_string(run.bulk_state().wall_contacts));
+}
+
 /// Every contact piles up beside itself what it ploughs aside.
 TEST(Bulk, WhatManyGrainsPloughAsideIsAllAccountedForOnAnyNumberOfThreads) {
   const int before = omp_get_max_threads();

@@ -139,6 +139,12 @@ def run_ours(args):
     return ["Abradem", median, best, contacts, energy]
 
 
+def print_table(rows):
+    width = [max(map(len, column)) for column in zip(*rows)]
+    for row in rows:
+        print("  ".join(cell.ljust(w) for cell, w in zip(row, width)).rstrip())
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("positions")
@@ -152,9 +158,7 @@ def main():
     rows = [["code", "median, particle-steps/s", "best", "contacts", "elastic energy [J]"], run_ours(args)]
     rows += [run_peer(name, side, points, args) for name in LAWS]
     print(f"{len(points)} spheres, {args.threads} core(s), {args.runs} runs of {args.steps} steps of {STEP:.4g} s, wall time")
-    width = [max(len(row[k]) for row in rows) for k in range(5)]
-    for row in rows:
-        print("  ".join(cell.ljust(w) for cell, w in zip(row, width)).rstrip())
+    print_table(rows)
 
 
 if __name__ == "__main__":

@@ -71,6 +71,19 @@ struct AnalyseArguments {
 /// Measures the grooves of measured profiles, and tests them.
 int analyse_command(const AnalyseArguments& arguments);
 
+struct FlowArguments {
+  std::string folder;           ///< of a run with frames
+  std::string from, to, reach;  ///< the line, with units
+  std::string averaged;         ///< direction along which distance does not count; empty: none
+  std::string component;        ///< direction of an own column; empty: none
+  std::string begin, end;       ///< times of the frames; empty: the first, the last
+  std::string output;           ///< table (.csv) to write; empty: none
+  int bins = 20;
+  bool quiet = false;
+};
+/// Averages the velocities of particles along a line, over the frames of a run.
+int flow_command(const FlowArguments& arguments);
+
 struct RewearArguments {
   std::string folder;                  ///< of a run that kept maps
   std::string law;                     ///< laws, separated by commas; empty: those of the run

@@ -25,6 +25,7 @@ struct Arguments {
   cli::SweepArguments sweep;
   cli::CalibrateArguments calibrate;
   cli::AnalyseArguments analyse;
+  cli::FlowArguments flow;
   cli::RewearArguments rewear;
   cli::CheckArguments check;
   cli::NewArguments create;
@@ -171,6 +172,32 @@ void declare_resume(CLI::App& app, cli::ResumeArguments& a) {
   resume->add_flag("--json", a.json, "Print run.json to stdout at the end");
 }
 
+void declare_flow(CLI::App& app, cli::FlowArguments& a) {
+  CLI::App* flow = app.add_subcommand(
+      "flow", "Average the velocities of particles along a line, over the frames of a run");
+  flow->add_option("DIR", a.folder, "Output folder of the run")->required();
+  flow->add_option("--from", a.from, "Where the line begins, as in \"0, 0, -120 mm\"")
+      ->type_name("POINT")
+      ->required();
+  flow->add_option("--to", a.to, "Where it ends")->type_name("POINT")->required();
+  flow->add_option("--reach", a.reach,
+                   "How far from the line the centre of a particle may be, as in \"5 mm\"")
+      ->type_name("LENGTH")
+      ->required();
+  flow->add_option("--bins", a.bins, "Parts of the line (default: 20)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  flow->add_option("--average-along", a.averaged,
+                   "Direction across the line in which distance does not count, as in \"0, 1, 0\"")
+      ->type_name("VECTOR");
+  flow->add_option("--component", a.component, "Add the velocity in this direction")->type_name("VECTOR");
+  flow->add_option("--begin", a.begin, "First time, as in \"2 s\" (default: the first frame)")
+      ->type_name("TIME");
+  flow->add_option("--end", a.end, "Last time (default: the last frame)")->type_name("TIME");
+  flow->add_option("-o,--output", a.output, "Table to write (.csv)")->type_name("FILE");
+  flow->add_flag("--quiet", a.quiet, "No messages, only warnings and errors");
+}
+
 void declare_rewear(CLI::App& app, cli::RewearArguments& a) {
   CLI::App* rewear = app.add_subcommand(
       "rewear", "Work out the wear by another law or coefficient from a run's maps, without running again");
@@ -223,6 +250,7 @@ void declare(CLI::App& app, Arguments& a) {
   declare_sweep(app, a.sweep);
   declare_calibrate(app, a.calibrate);
   declare_analyse(app, a.analyse);
+  declare_flow(app, a.flow);
   declare_rewear(app, a.rewear);
 
   CLI::App* check = app.add_subcommand("check", "Say what is wrong with a case file or a mesh");
@@ -253,6 +281,7 @@ int dispatch(const CLI::App& app, const Arguments& a) {
   if (app.got_subcommand("sweep")) return cli::sweep_command(a.sweep);
   if (app.got_subcommand("calibrate")) return cli::calibrate_command(a.calibrate);
   if (app.got_subcommand("analyse")) return cli::analyse_command(a.analyse);
+  if (app.got_subcommand("flow")) return cli::flow_command(a.flow);
   if (app.got_subcommand("rewear")) return cli::rewear_command(a.rewear);
   if (app.got_subcommand("check")) return cli::check_command(a.check);
   if (app.got_subcommand("report")) return cli::report_command(a.report_folder);

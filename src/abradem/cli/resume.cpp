@@ -40,8 +40,9 @@ struct ChangedCase {
 ChangedCase change(const std::string& resolved, const fs::path& folder,
                    const std::vector<std::string>& overrides) {
   const std::string name = (folder / "case.resolved.toml").string();
-  const simulation::Setup before = io::parse_case(resolved, name, folder).setup;
-  ChangedCase now{io::parse_case(resolved, name, folder, overrides).setup, resolved, false};
+  const simulation::Setup before = io::parse_case(resolved, name, folder, {}, io::NamedFiles::kept).setup;
+  ChangedCase now{io::parse_case(resolved, name, folder, overrides, io::NamedFiles::kept).setup, resolved,
+                  false};
   simulation::Setup same = now.setup;
   same.run.end = before.run.end;
   same.output.checkpoint_every = before.output.checkpoint_every;

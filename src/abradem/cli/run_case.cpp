@@ -160,7 +160,7 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
             "insertion '{}': its volume was full at the last try after {} particles; what comes in lags "
             "behind its mass_rate",
             inserter.setup().name, inserter.inserted()));
-  if (record.ledger.residual > 1e-9)
+  if (record.ledger.residual > run.ledger_tolerance(record.ledger))
     warn(fmt::format("the ledger does not close: residual {:.3g}", record.ledger.residual));
   for (const simulation::WearSetup& wear : run.setup().wear)
     if (std::ranges::none_of(run.setup().walls,
@@ -171,7 +171,7 @@ void complete_record(io::RunRecord& record, const Simulation& run, const io::Run
       warn(
           fmt::format("[wear.\"{}/{}\"] has no effect: no wall is made of {}, and only guided particles wear",
                       wear.abrader, wear.worn, wear.worn));
-  if (record.ledger.tip_residual > 1e-9)
+  if (record.ledger.tip_residual > run.ledger_tolerance(record.ledger))
     warn(fmt::format("the pin's ledger does not close: residual {:.3g}", record.ledger.tip_residual));
   if (record.status == "completed" && run.law_volume() == 0.0 && run.plane_volume() == 0.0 &&
       (run.wears_by_laws() ||

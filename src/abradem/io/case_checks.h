@@ -17,6 +17,9 @@ class Places {
  public:
   void set(const std::string& path, const Place& place) { places_[path] = place; }
   void set_wrong(const std::string& path) { wrong_[path] = true; }
+  /// What the files hold that the case names is kept elsewhere, as in a checkpoint: they are not looked at.
+  void keep_files() { files_kept_ = true; }
+  [[nodiscard]] bool files_kept() const { return files_kept_; }
   /// The value was a number without its unit.
   void set_bare(const std::string& path) { bare_.insert(path); }
 
@@ -31,6 +34,7 @@ class Places {
   std::map<std::string, Place> places_;
   std::map<std::string, bool> wrong_;
   std::set<std::string> bare_;
+  bool files_kept_ = false;
 };
 
 /// Adds what is wrong between keys: names that do not exist, pairs that are missing, shapes and positions

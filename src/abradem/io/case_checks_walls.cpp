@@ -76,7 +76,7 @@ void Checker::check_wall(const WallSetup& wall) {
 /// @return false when the shape makes no sense, so that nothing can be said about what lies on it
 bool Checker::check_mesh(const WallSetup& wall, const std::string& path) {
   const MeshSetup& m = wall.mesh;
-  if (m.shape == MeshShape::file) check_mesh_file(m, path);
+  if (m.shape == MeshShape::file && !places_.files_kept()) check_mesh_file(m, path);
   if (!is_generated(m.shape)) return true;
   if (m.shape == MeshShape::annulus && m.outer <= m.inner) {
     error(path + ".outer", fmt::format("the outer radius, {}, must be larger than the inner one, {}",

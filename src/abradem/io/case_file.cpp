@@ -276,9 +276,10 @@ void refuse_what_is_no_text(std::string_view text, const std::string& name) {
 }
 
 /// The setup of a tree; what is wrong with it goes to `problems`.
-simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems& problems) {
+simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems& problems, NamedFiles files) {
   simulation::Setup setup;
   Places places;
+  if (files == NamedFiles::kept) places.keep_files();
   CaseReader(problems, places).read_root(tree, setup);
   const auto made_absolute = [&](std::string& file) {
     if (!file.empty()) file = fs::absolute(folder / file).lexically_normal().string();
@@ -318,7 +319,7 @@ void leave_out_study(Value& tree) {
 }
 
 Case parse(std::string_view text, const std::string& name, const fs::path& folder,
-           std::span<const std::string> overrides, Study study) {
+           std::span<const std::string> overrides, Study study, NamedFiles files) {
   refuse_what_is_no_text(text, name);
   Problems problems(name, std::string(text));
   Value tree = parse_toml(text, problems);
@@ -333,10 +334,10 @@ Case parse(std::string_view text, const std::string& name, const fs::path& folde
 
   Case result;
   result.text = text;
-  result.setup = read_tree(tree, folder, problems);
+  result.setup = read_tree(tree, folder, problems, files);
   if (result.setup.study)
     check_study(tree, base, changes, *result.setup.study, problems,
-                [&](const Value& run) { static_cast<void>(read_tree(run, folder, problems)); });
+                [&](const Value& run) { static_cast<void>(read_tree(run, folder, problems, files)); });
   problems.throw_if_any();
   result.notes = problems.notes();
   return result;
@@ -345,12 +346,13 @@ Case parse(std::string_view text, const std::string& name, const fs::path& folde
 }  // namespace
 
 Case parse_case(std::string_view text, const std::string& name, const fs::path& folder,
-                std::span<const std::string> overrides) {
-  return parse(text, name, folder, overrides, Study::read);
+                std::span<const std::string> overrides, NamedFiles files) {
+  return parse(text, name, folder, overrides, Study::read, files);
 }
 
 Case load_single_run(const fs::path& path, std::span<const std::string> overrides) {
-  return parse(read_text(path), path.string(), path.parent_path(), overrides, Study::leave_out);
+  return parse(read_text(path), path.string(), path.parent_path(), overrides, Study::leave_out,
+               NamedFiles::needed);
 }
 
 Case load_case(const fs::path& path, std::span<const std::string> overrides) {

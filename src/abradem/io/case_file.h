@@ -31,11 +31,15 @@ struct Case {
 [[nodiscard]] simulation::Setup read_case(const std::filesystem::path& path,
                                           std::span<const std::string> overrides = {});
 
+/// Whether the files that a case names must be there, or what they hold is kept elsewhere.
+enum class NamedFiles { needed, kept };
+
 /// Reads a case from memory.
 /// @param name what messages call it   @param folder that relative mesh files are relative to
 [[nodiscard]] Case parse_case(std::string_view text, const std::string& name,
                               const std::filesystem::path& folder,
-                              std::span<const std::string> overrides = {});
+                              std::span<const std::string> overrides = {},
+                              NamedFiles files = NamedFiles::needed);
 
 /// The setup as a case file with every key and its unit. Reading it gives the same setup, bit for bit.
 [[nodiscard]] std::string resolved_case(const simulation::Setup& setup);

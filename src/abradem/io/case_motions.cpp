@@ -87,6 +87,7 @@ void check_motions(const Setup& setup, const Places& places, Problems& problems)
         error(fmt::format("{}.rows[{}]", path, problem->row + 1), problem->what);
       return;
     }
+    if (places.files_kept()) return;
     try {
       MotionSetup read = m;
       read_motion_file(read);

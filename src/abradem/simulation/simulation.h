@@ -113,6 +113,9 @@ class Simulation {
     return sphere_walls_[particle * walls_.size() + wall];
   }
   [[nodiscard]] Ledger ledger();
+  /// The largest residual of such books that is no fault [-]: 1e-9, and what rounding explains while next to
+  /// nothing is worn.
+  [[nodiscard]] double ledger_tolerance(const Ledger& books) const;
   /// The worn tip of particle p; nothing where it cannot wear.
   [[nodiscard]] const wear::WearingTip* tip(std::size_t p) const noexcept {
     return tips_[p] ? &*tips_[p] : nullptr;

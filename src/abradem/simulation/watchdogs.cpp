@@ -210,10 +210,19 @@ bool Simulation::ledger_due() const noexcept {
          });
 }
 
+double Simulation::ledger_tolerance(const Ledger& books) const {
+  constexpr double kLargest = 1e-9;  // round-off of a long run stays a thousand times below
+  const double worn = books.law + books.displaced;
+  if (!(worn > 0.0)) return kLargest;
+  double rounding = 0.0;
+  for (const Wall& wall : walls_)
+    if (!wall.is_plane()) rounding += rounding_of(wall.surface());
+  return kLargest + rounding / worn;
+}
+
 /// The books are compared at every output: a difference is a fault of the program, or wear too deep for the
 /// mesh.
 void Simulation::check_ledger() {
-  constexpr double kLargest = 1e-9;  // round-off of a long run stays a thousand times below
   constexpr auto kAdvice =
       "If wear is as deep as a triangle is long, take a shorter time_step, a coarser mesh or less wear per "
       "revolution; otherwise please report it with the case file";
@@ -221,15 +230,12 @@ void Simulation::check_ledger() {
   // Of what is no number the largest residual may be one.
   const double sum = books.law + books.deposited + books.swept + books.tip_deposited + books.tip_removed;
   const auto check = [&](double residual, const char* whose, double law, double deposited, double shape) {
-    if (residual <= kLargest && std::isfinite(sum)) return;
-    double rounding = 0.0;  // counts while next to nothing is worn
-    for (const Wall& wall : walls_)
-      if (!wall.is_plane()) rounding += rounding_of(wall.surface());
-    if (residual <= kLargest + rounding / (books.law + books.displaced) && std::isfinite(sum)) return;
+    if (residual <= ledger_tolerance(books) && std::isfinite(sum)) return;
     throw SimulationError(fmt::format(
         "step {}, {:.6g} s: the ledger{} does not close: law {:.12g} mm^3, deposited {:.12g}, by the shape "
         "{:.12g}; residual {:.3g}, at most {:.0e}. {}",
-        steps_, time(), whose, 1e9 * law, 1e9 * deposited, 1e9 * shape, residual, kLargest, kAdvice));
+        steps_, time(), whose, 1e9 * law, 1e9 * deposited, 1e9 * shape, residual, ledger_tolerance(books),
+        kAdvice));
   };
   check(books.residual, "", books.law, books.deposited, books.swept);
   check(books.tip_residual, " of the worn tips", books.tip_law, books.tip_deposited, books.tip_removed);

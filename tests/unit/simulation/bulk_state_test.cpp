@@ -2,6 +2,8 @@
 // A run with particles in numbers that is saved and put back goes on to the same bits.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "abradem/core/error.h"
 #include "support/state.h"
 
@@ -119,6 +121,96 @@ TEST(BulkState, GoesOnOnOtherThreads) {
   const simulation::Setup setup = feed_on_a_shaking_plate(ContactRule::resolved);
   test::expect_same_bits_on_other_threads(setup, 700, 1400);
 }
+
+/// The plate turns, rides on a table that turns it about `axis` and begins again and again, and all that is
+/// shaken.
+void move_in_three_ways(Setup& setup, const Vec3& axis) {
+  MotionSetup turn, ride;
+  turn.kind = MotionKind::rotation;
+  turn.rate = 3.0;
+  ride.kind = MotionKind::table;
+  ride.axis = axis;
+  ride.after = TableEnd::repeat;
+  ride.rows = {{0.0, {}, 0.0}, {3.1e-3, {0.4e-3, 0.0, 0.1e-3}, 0.01}, {7.3e-3, {}, -0.01}, {11e-3, {}, 0.0}};
+  setup.walls[0].carried_by = {ride, setup.walls[0].motion};
+  setup.walls[0].motion = turn;
+}
+
+TEST(BulkState, OnAWallOfCombinedMotionsGoesOnToTheSameBits) {
+  simulation::Setup setup = feed_on_a_shaking_plate(ContactRule::resolved);
+  move_in_three_ways(setup, {0.0, 1.0, 0.0});
+  test::expect_same_bits_from_anywhere(setup, 900);
+  test::expect_same_bits_on_other_threads(setup, 700, 1400);
+}
+
+/// A number of particles that is shared out among threads, on a plate that wears and moves, sides periodic.
+struct Together {
+  std::string name;
+  ContactRule rule = ContactRule::resolved;
+  bool clumps = false;
+  Cohesion cohesion = Cohesion::none;
+  bool combined_motions = false;
+};
+
+void PrintTo(const Together& t, std::ostream* out) { *out << t.name; }
+
+class BulkTogether : public testing::TestWithParam<Together> {};
+
+TEST_P(BulkTogether, GivesTheSameBitsOnOneTwoAndThreeThreads) {
+  const Together& together = GetParam();
+  simulation::Setup setup = clumps_on_a_shaking_plate();
+  setup.particles.clear();
+  setup.walls.resize(1);
+  WallSetup& plate = setup.walls[0];
+  plate.mesh.length = plate.mesh.width = 60e-3;
+  plate.mesh.size = 1e-3;  // of the size of the contacts' width in part of the impacts
+  plate.contact = together.rule;
+  plate.deformation = DeformationRule::conserving;
+  if (together.combined_motions)
+    move_in_three_ways(setup, {0.0, 0.0, 1.0});  // as flat as space repeats itself
+  setup.insertions.resize(1);
+  InsertionSetup& grains = setup.insertions[0];
+  grains.number = together.clumps ? 350 : 900;
+  if (together.clumps) grains.shape = "grain";
+  grains.velocity = {0.2, 0.1, -1.0};
+  grains.volume.low = {-20e-3, -20e-3, 1.4e-3};
+  grains.volume.high = {20e-3, 20e-3, 7e-3};
+  setup.domain = DomainSetup{{-20e-3, -20e-3, -20e-3}, {20e-3, 20e-3, 40e-3}, Outside::remove, Periodic::xy};
+  for (ContactSetup& pair : setup.contacts) {
+    pair.cohesion = together.cohesion;
+    pair.work_of_adhesion = together.cohesion == Cohesion::jkr ? 0.05 : 0.0;
+    pair.cohesion_energy_density = together.cohesion == Cohesion::sjkr ? 2e4 : 0.0;
+  }
+  const int before = omp_get_max_threads();
+  std::string first;
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    Simulation run(setup);
+    finish(run, 702);  // the shape follows every third
+    if (threads == 1) first = saved(run);
+    EXPECT_TRUE(saved(run) == first) << threads << " threads";
+    EXPECT_GT(run.bulk_state().pair_contacts, 10u);
+    EXPECT_GT(
+        std::ranges::count_if(run.walls()[0].surface().element_volume(), [](double v) { return v > 0.0; }),
+        150);
+    const Ledger ledger = run.ledger();
+    EXPECT_GT(ledger.law, 0.0);
+    EXPECT_LT(ledger.residual, 1e-9);
+  }
+  omp_set_num_threads(before);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Every, BulkTogether,
+    testing::Values(Together{"spheres_resolved", ContactRule::resolved, false, Cohesion::none, true},
+                    Together{"spheres_auto", ContactRule::automatic, false, Cohesion::none, true},
+                    Together{"spheres_patch", ContactRule::patch, false, Cohesion::none, false},
+                    Together{"spheres_resolved_jkr", ContactRule::resolved, false, Cohesion::jkr, true},
+                    Together{"spheres_auto_sjkr", ContactRule::automatic, false, Cohesion::sjkr, true},
+                    Together{"clumps_auto", ContactRule::automatic, true, Cohesion::none, true},
+                    Together{"clumps_resolved_jkr", ContactRule::resolved, true, Cohesion::jkr, true},
+                    Together{"clumps_resolved_sjkr", ContactRule::resolved, true, Cohesion::sjkr, true}),
+    [](const auto& instance) { return instance.param.name; });
 
 class DamagedBulkState : public testing::TestWithParam<bool> {};
 
