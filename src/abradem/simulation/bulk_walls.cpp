@@ -151,7 +151,7 @@ void BulkWalls::list_meshes(const contact::Spheres& spheres, const Surroundings&
   for (NearMesh& gone : before) {
     if (!gone.contact) continue;
     Wall& wall = around.walls[at(gone.wall)];
-    paper[at(gone.wall)] += gone.contact->take_centroid_volume(wall);
+    paper[at(gone.wall)] += gone.contact->centroid_volume(wall);
     gone.contact->book_elements(wall);
     unplaced_[at(gone.wall)] += gone.contact->unpiled_volume();
   }

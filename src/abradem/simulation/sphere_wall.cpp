@@ -414,35 +414,40 @@ double SphereWall::pending_volume() const noexcept {
   return sum;
 }
 
-/// Adds what the centroids of the elements in contact have moved since they were last noted.
+/// Adds what the centroids of the elements in contact have moved since they were last noted, and notes them.
 void SphereWall::add_centroid_motion(const Wall& wall) {
+  centroid_volume_ += unnoted_centroid_volume(wall);
   if (wall.setup().deformation != DeformationRule::conserving) return;
-  if (noted_revision_ == wall.view().revision && !noted_.empty()) return;  // nothing has moved since
+  if (noted_revision_ == wall.view().revision) return;
   noted_revision_ = wall.view().revision;
+  for (std::size_t i = 0; i < noted_.size(); ++i)
+    noted_[i] = wall.surface().mesh().vertices[at(candidates_.node[i])];
+}
+
+double SphereWall::unnoted_centroid_volume(const Wall& wall) {
+  if (wall.setup().deformation != DeformationRule::conserving) return 0.0;
+  if (noted_revision_ == wall.view().revision) return 0.0;  // nothing has moved since
   const geometry::TriangleMesh& mesh = wall.surface().mesh();
   const bool patch = by_patches(wall);
   const std::span<const double> excess = patches_.node_excess();
   bool moved = false;
   for (std::size_t i = 0; i < noted_.size(); ++i) {
-    const Vec3& now = mesh.vertices[at(candidates_.node[i])];
-    const Vec3 motion = now - noted_[i];
-    noted_[i] = now;
+    const Vec3 motion = mesh.vertices[at(candidates_.node[i])] - noted_[i];
     motion_[i] = {motion.x, motion.y, motion.z, patch && excess[i] > 0.0 ? 1.0 : 0.0};
     moved = moved || motion != Vec3{};
   }
-  if (!moved) return;
-  if (patch) {
-    centroid_volume_ += contact::kernels::centroid_motion(candidates_, motion_, terms_);
-    return;
-  }
+  if (!moved) return 0.0;
+  if (patch) return contact::kernels::centroid_motion(candidates_, motion_, terms_);
+  double volume = 0.0;
   for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {
     const auto of_touch = [&](const Touch& touch) { return touch.part == static_cast<int>(t); };
     if (std::ranges::none_of(touches_, of_touch)) continue;
     Vec3 sum;
     for (const std::int32_t v : {candidates_.v0[t], candidates_.v1[t], candidates_.v2[t]})
       sum += Vec3{motion_[at(v)][0], motion_[at(v)][1], motion_[at(v)][2]};
-    centroid_volume_ += norm(sum) * candidates_.area[t] / 3.0;
+    volume += norm(sum) * candidates_.area[t] / 3.0;
   }
+  return volume;
 }
 
 /// Does the ball hold a corner of the candidate triangle?
@@ -502,11 +507,8 @@ void SphereWall::add_to(core::StateHash& hash) const {
   if (unpiled_ != 0.0) hash.add(unpiled_);
 }
 
-double SphereWall::take_centroid_volume(const Wall& wall) {
-  if (!wall.is_plane()) add_centroid_motion(wall);
-  const double volume = centroid_volume_;
-  centroid_volume_ = 0.0;
-  return volume;
+double SphereWall::centroid_volume(const Wall& wall) {
+  return wall.is_plane() ? 0.0 : centroid_volume_ + unnoted_centroid_volume(wall);
 }
 
 }  // namespace abradem::simulation

@@ -249,9 +249,10 @@ class SphereWall {
   /// Adds what the next step depends on: the contacts' springs.
   void add_to(core::StateHash& hash) const;
 
-  /// Eq. 10-12 of the paper over the elements in contact, since last asked, where the surface moves by
-  /// `deform_conserving` [m^3].
-  double take_centroid_volume(const Wall& wall);
+  /// Eq. 10-12 of the paper over the elements in contact, where the surface moves by `deform_conserving`,
+  /// since the start. Asking changes nothing, so that the sum does not depend on how often there is an output
+  /// [m^3].
+  [[nodiscard]] double centroid_volume(const Wall& wall);
 
   /// All that lasts from one step to the next, for core/archive.h. restore() follows a load.
   template <typename Self, typename Archive>
@@ -347,6 +348,7 @@ class SphereWall {
                             const contact::PairProperties& pair, double dt,
                             contact::TangentialHistory& history, Vec3& torque) const;
   void add_centroid_motion(const Wall& wall);
+  [[nodiscard]] double unnoted_centroid_volume(const Wall& wall);
   void note_nodes();
   [[nodiscard]] bool inside(std::size_t t) const noexcept;
 

@@ -256,12 +256,12 @@ Ledger Simulation::ledger() {
     double unpiled = bulk_ ? bulk_->walls().unplaced(w) : 0.0;
     for (std::size_t p = 0; p < particles_.size(); ++p)
       if (wall.setup().deformation == DeformationRule::conserving)
-        paper_[w] += sphere_walls_[p * walls_.size() + w].take_centroid_volume(wall);
+        ledger.paper += sphere_walls_[p * walls_.size() + w].centroid_volume(wall);
     if (bulk_)
       for (BulkWalls::NearMesh& m : bulk_->walls().meshes()) {
         if (static_cast<std::size_t>(m.wall) != w) continue;
         if (wall.setup().deformation == DeformationRule::conserving)
-          paper_[w] += m.contact->take_centroid_volume(wall);
+          ledger.paper += m.contact->centroid_volume(wall);
         ledger.deposited += m.contact->pending_volume();
         unpiled += m.contact->unpiled_volume();
       }
