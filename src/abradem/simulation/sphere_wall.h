@@ -130,9 +130,13 @@ class SphereWall {
   void fetch_arrays() const noexcept {
     candidates_.fetch();
     points_.fetch();
-    for (const Vec3* v :
-         {&touches_.data()->n, &touches_.data()->force.F_t, &memory_.data()->n, &kept_.data()->n})
-      __builtin_prefetch(v);
+    const auto ask = [](const auto& list) {
+      if (list.empty()) return;
+      const char* from = reinterpret_cast<const char*>(list.data());
+      for (std::size_t byte = 0; byte < sizeof list.front(); byte += 64) __builtin_prefetch(from + byte);
+    };
+    ask(touches_);
+    ask(memory_);
   }
 
   /// First part of the search: settles what the last candidates still owe the wall. Where they owe it

@@ -36,14 +36,14 @@ double angle(double d, double from, double to) noexcept {
   return std::atan2(d * (to - from), d * d + from * to);
 }
 
-/// A triangle as seen from q, the foot of the ball's centre on its plane. Of edge k, which starts at corner
-/// k:
+/// A triangle as seen from q, the foot of the ball's centre on its plane; edge k starts at corner k.
 struct Edges {
-  Vec3 out[3];  ///< unit normal outwards, in the plane
-  double length[3], d[3], from[3],
-      to[3];  ///< distance from q (> 0: q lies inside), way of its ends from there
-  double h;   ///< of the centre over the plane
-  double twice_area;
+  Vec3 out[3];            ///< unit normal outwards, in the plane
+  double length[3];       ///< [m]
+  double d[3];            ///< distance from q; > 0: q lies inside [m]
+  double from[3], to[3];  ///< its ends, along it, from where q is nearest [m]
+  double h;               ///< of the centre over the plane [m]
+  double twice_area;      ///< [m^2]
 };
 
 ABRADEM_INLINE Edges edges_of(const Vec3& r0, const Vec3& r1, const Vec3& r2) {
