@@ -373,6 +373,7 @@ void Expression::check_unit() const {
   const auto whole = [&](double p) { return std::abs(p - std::round(p)) < kSame; };
   const auto power = [](double p) { return static_cast<int>(std::lround(p)); };
   const core::Dimension d{.mass = power(mass), .length = power(length), .time = power(time)};
+  const std::string unit = core::si_unit(d), name = core::describe(d);
   throw ExpressionError(
       text_.npos,
       fmt::format(
@@ -380,7 +381,8 @@ void Expression::check_unit() const {
           "such as constants = {{ k = \"1e-12 1/Pa\" }}",
           whole(mass) && whole(length) && whole(time)
               ? (d == core::Dimension{} ? "a plain number"
-                                        : fmt::format("{} [{}]", core::describe(d), core::si_unit(d)))
+                 : name.ends_with(unit) ? name
+                                        : fmt::format("{} [{}]", name, unit))
               : fmt::format("a quantity in kg^{:.3g} m^{:.3g} s^{:.3g}", mass, length, time)));
 }
 
