@@ -8,17 +8,13 @@
 
 #include "abradem/io/csv.h"
 #include "cli/program.h"
+#include "support/says.h"
 
 namespace abradem::test {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
-}
 
 /// The transfer chute with the wear given here; its sides a plane.
 void write_chute(const fs::path& file, const std::string& wear) {

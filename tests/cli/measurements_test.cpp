@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "cli/program.h"
+#include "support/says.h"
 
 namespace abradem::test {
 namespace {
@@ -18,11 +19,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 const std::string kTests = ABRADEM_SOURCE_DIR "/cases/data/ptfe-pin-on-disc.csv";
-
-testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
-}
 
 TEST(CalibrateTests, SaysThatArchardDoesNotHoldForThePublishedTests) {
   const Outcome text = run_program("calibrate " + kTests);

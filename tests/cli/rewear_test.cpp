@@ -12,17 +12,13 @@
 
 #include "abradem/io/csv.h"
 #include "cli/program.h"
+#include "support/says.h"
 
 namespace abradem::test {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
-}
 
 /// The transfer chute on a rigid liner with the wear given here, and a region.
 void run_chute(const fs::path& folder, const std::string& name, const std::string& wear) {

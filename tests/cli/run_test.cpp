@@ -18,6 +18,7 @@
 #include "abradem/io/csv.h"
 #include "abradem/io/mesh_files.h"
 #include "cli/program.h"
+#include "support/says.h"
 
 namespace abradem::test {
 namespace {
@@ -29,11 +30,6 @@ const std::string kExample = ABRADEM_SOURCE_DIR "/cases/pin-on-disc.toml";
 const std::string kCoarse = " --set wall.disc.mesh.size='0.5 mm'";
 const std::string kShort = " --set run.end='0.02 rev' --set output.every='0.01 rev' --set output.contours=36";
 const std::string kRun = "run " + kExample + kCoarse + kShort;
-
-testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
-}
 
 std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t count = 0;

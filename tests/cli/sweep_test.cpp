@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "cli/program.h"
+#include "support/says.h"
 
 namespace abradem::test {
 namespace {
@@ -28,11 +29,6 @@ const std::string kShort =
 const std::string kSizes = " --vary 'wall.disc.mesh.size=0.4 mm,0.5 mm'";
 const std::string kAlphas = " --vary 'wear.\"iron_ore/mild_steel\".wear_coefficient=1e-11..3e-11 1/Pa:3'";
 const std::string kSweep = "sweep " + kCase + kShort + kSizes + kAlphas;
-
-testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
-}
 
 std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));

@@ -16,4 +16,9 @@ inline testing::AssertionResult says(const std::string& text, std::initializer_l
   return testing::AssertionSuccess();
 }
 
+/// Is this part in a text?
+inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
+  return says(text, {part.c_str()});
+}
+
 }  // namespace abradem::test

@@ -7,6 +7,7 @@
 #include "abradem/cli/commands.h"
 #include "abradem/cli/output_folder.h"
 #include "abradem/cli/print.h"
+#include "abradem/cli/quantity.h"
 #include "abradem/core/error.h"
 #include "abradem/core/units.h"
 #include "abradem/io/atomic_file.h"
@@ -23,12 +24,8 @@ constexpr const char* kRecord = "analysis.json";  // by which a folder of an ear
 
 std::optional<double> length(const std::string& text, const char* option) {
   if (text.empty()) return std::nullopt;
-  try {
-    const core::Quantity q = core::parse_quantity(text);
-    if (q.dimension == core::Dimension{.length = 1} && q.value > 0.0) return q.value;
-  } catch (const core::UnitError& error) {
-    throw InputError(fmt::format("{} {}: {}", option, text, error.what()));
-  }
+  const core::Quantity q = quantity_of(text, option);
+  if (q.dimension == core::Dimension{.length = 1} && q.value > 0.0) return q.value;
   throw InputError(
       fmt::format("{} {}: expected a length above 0 with its unit, such as \"0.3 mm\"", option, text));
 }

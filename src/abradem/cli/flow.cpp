@@ -10,6 +10,7 @@
 #include "abradem/analysis/flow_profile.h"
 #include "abradem/cli/commands.h"
 #include "abradem/cli/print.h"
+#include "abradem/cli/quantity.h"
 #include "abradem/core/error.h"
 #include "abradem/core/units.h"
 #include "abradem/io/csv.h"
@@ -21,15 +22,11 @@ namespace {
 namespace fs = std::filesystem;
 
 double quantity(std::string_view text, const char* option, const core::Dimension& dimension) {
-  try {
-    const core::Quantity q = core::parse_quantity(text);
-    if (q.dimension == dimension) return q.value;
-    const std::string_view example = core::example(dimension);
-    throw InputError(fmt::format("{} {}: expected {}{}", option, text, core::describe(dimension),
-                                 example.empty() ? "" : fmt::format(" such as \"{}\"", example)));
-  } catch (const core::UnitError& error) {
-    throw InputError(fmt::format("{} {}: {}", option, text, error.what()));
-  }
+  const core::Quantity q = quantity_of(text, option);
+  if (q.dimension == dimension) return q.value;
+  const std::string_view example = core::example(dimension);
+  throw InputError(fmt::format("{} {}: expected {}{}", option, text, core::describe(dimension),
+                               example.empty() ? "" : fmt::format(" such as \"{}\"", example)));
 }
 
 /// "0, 0, -120 mm": three numbers, and a unit for all of them behind the last; none for a direction.

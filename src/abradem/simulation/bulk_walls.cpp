@@ -230,8 +230,7 @@ bool BulkWalls::compute(std::size_t k, const contact::SphereRow& s, const Surrou
   const WearUse use = around.wear[at(m.wall) * around.materials + material];
   if (use != WearUse::none)
     m.contact->record_wear(wall, sphere, pair,
-                           {.dt = around.dt,
-                            .by_speed = wall.wears_by_speed(),
+                           {.sliding = {around.dt, wall.wears_by_speed()},
                             .sliding_only = use == WearUse::sliding,
                             .contact = static_cast<std::int32_t>(k),
                             .wall = m.wall,

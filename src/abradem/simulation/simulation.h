@@ -241,7 +241,6 @@ class Simulation {
   void record();
 
   void find_equilibrium(std::size_t p);
-  [[nodiscard]] double slip_of(const SphereWall::Touch& touch, const Wall& wall) const noexcept;
   [[nodiscard]] bool wears_by_speed(const Wall& wall) const noexcept;
   void book_bulk_wear();
   double book_contact(SphereWall& contact, const WearRecords& records, const WearRecords::Record& record);

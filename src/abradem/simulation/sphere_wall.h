@@ -51,16 +51,17 @@ struct WearShare {
 struct WearRecords {
   struct Record {
     std::int32_t contact = 0, wall = 0, material = 0;  ///< whose it is
-    bool nodal = false;                                ///< the shares are loads of candidate nodes
-    std::size_t first = 0, end = 0;                    ///< its shares
+    bool nodal = false;                                ///< it lies on candidate nodes
+    std::size_t first = 0, end = 0;                    ///< its places in `node`, or else in `share`
     wear::MapSample sample;                            ///< but for the volumes
-    wear::ContactLoad load;
   };
   std::vector<Record> record;
   std::vector<WearShare> share;
+  std::vector<double> node;  ///< load of each of the first candidate nodes
   void clear() noexcept {
     record.clear();
     share.clear();
+    node.clear();
   }
 };
 
@@ -162,26 +163,23 @@ class SphereWall {
   ForceAndTorque compute(const Wall& wall, const geometry::Pose& pose, const SphereState& sphere,
                          const contact::PairProperties& pair, double dt);
 
+  /// By what contacts slide in a step.
+  struct Sliding {
+    double dt = 0.0;        ///< [s]
+    bool by_speed = false;  ///< by |v_t| dt, not by their plastic slip
+    [[nodiscard]] double of(const Touch& touch) const noexcept {
+      return by_speed ? touch.force.v_t * dt : touch.force.slip;
+    }
+  };
   /// Books the wear of one step: law volume of each contact, shared out under it. Returns the law's volume
   /// [m^3].
-  /// @param slip_of (Touch) -> sliding distance of this step [m]
-  template <typename SlipOf>
   double deposit(Wall& wall, double alpha_s, double R, const contact::PairProperties& pair,
-                 SlipOf&& slip_of) {
-    double volume = 0.0;
-    for (const Touch& touch : touches_) {
-      const double dV = wear::archard_volume(alpha_s, {std::max(touch.force.F_n, 0.0), slip_of(touch)});
-      if (dV > 0.0) deposit_landed(wall, land(wall, touch, R, pair), dV);
-      volume += dV;
-    }
-    return volume;
-  }
+                 const Sliding& sliding);
 
   /// How the wear of a step is recorded.
   struct Recording {
-    double dt = 0.0;            ///< [s]
-    bool by_speed = false;      ///< contacts slide by |v_t| dt, not by their plastic slip
-    bool sliding_only = false;  ///< nobody asks for what does not slide under load
+    Sliding sliding;
+    bool sliding_only = false;                         ///< nobody asks for what does not slide under load
     std::int32_t contact = 0, wall = 0, material = 0;  ///< whose they are to be
   };
   /// Records what the contacts do to the wall in this step. Touches nothing but this object and the records.
@@ -196,16 +194,8 @@ class SphereWall {
   void set_tip(const contact::Tip& tip) noexcept { tip_ = tip; }
   /// Books the sphere's own wear of one step and, when enough has come together to matter or an output is
   /// `due`, takes it off the tip where the contacts press. Returns the law's volume [m^3].
-  template <typename SlipOf>
   double wear_tip(wear::WearingTip& tip, const Wall& wall, double alpha_s,
-                  const contact::PairProperties& pair, bool due, SlipOf&& slip_of) {
-    double volume = 0.0;
-    for (const Touch& touch : touches_)
-      volume += wear::archard_volume(alpha_s, {std::max(touch.force.F_n, 0.0), slip_of(touch)});
-    tip_pending_ += volume;
-    if (due || tip_pending_ > tip_batch_) shape_tip(tip, wall, pair, due);
-    return volume;
-  }
+                  const contact::PairProperties& pair, bool due, const Sliding& sliding);
   /// Wear of the tip not yet taken off [m^3].
   [[nodiscard]] double tip_pending() const noexcept { return tip_pending_; }
 
@@ -321,15 +311,13 @@ class SphereWall {
     std::span<const WearShare> triangles;
     [[nodiscard]] bool nowhere() const noexcept { return nodes == nullptr && triangles.empty(); }
   };
-  [[nodiscard]] bool lands_inside(const Touch& touch, double R, const contact::PairProperties& pair,
-                                  WearShare& share) const;
-  /// @return valid until the next call
-  [[nodiscard]] Landing land(const Wall& wall, const Touch& touch, double R,
-                             const contact::PairProperties& pair);
+  [[nodiscard]] bool lands_inside(const Touch& touch, double a, WearShare& share) const;
+  /// @param d_e Hertz's approach of its force [m]   @return valid until the next call
+  [[nodiscard]] Landing land(const Wall& wall, const Touch& touch, double R, double d_e);
   void deposit_landed(Wall& wall, const Landing& landing, double dV);
   void map_landed(const MapLayer& map, const Landing& landing, const wear::MapSample& sample) const;
   [[nodiscard]] wear::MapSample sample_of(const Touch& touch, const SphereState& sphere,
-                                          const contact::PairProperties& pair, double dt, double slip) const;
+                                          const contact::PairProperties& pair, const Sliding& sliding) const;
   [[nodiscard]] Scratch& scratch() noexcept {
     if (scratch_ != nullptr) return *scratch_;
     if (!own_) own_ = std::make_unique<Scratch>();

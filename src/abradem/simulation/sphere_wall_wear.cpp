@@ -15,11 +15,8 @@ std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 /// Where the Hertz footprint lies wholly inside one triangle, its pressure is symmetric about the nearest
 /// point, so that its moments with the (linear) shape functions are these functions there: no integral is
 /// needed.
-bool SphereWall::lands_inside(const Touch& touch, double R, const contact::PairProperties& pair,
-                              WearShare& share) const {
+bool SphereWall::lands_inside(const Touch& touch, double a, WearShare& share) const {
   const auto t = static_cast<std::size_t>(touch.nearest);
-  const double a =
-      contact::contact_radius(R, contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight));
   const Vec3 p0 = candidates_.node_position(at(candidates_.v0[t])),
              p1 = candidates_.node_position(at(candidates_.v1[t])),
              p2 = candidates_.node_position(at(candidates_.v2[t]));
@@ -36,8 +33,7 @@ bool SphereWall::lands_inside(const Touch& touch, double R, const contact::PairP
 }
 
 /// Where what a contact does to the wall falls; on a plane nowhere.
-SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, double R,
-                                     const contact::PairProperties& pair) {
+SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, double R, double d_e) {
   if (wall.is_plane()) return {};
   std::vector<WearShare>& shares = scratch().shares;
   shares.clear();
@@ -61,18 +57,15 @@ SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, doubl
 
   WearShare share;
   if (touch.of_point && !paper && !tip_.worn() && wall.setup().footprint == Footprint::hertz &&
-      lands_inside(touch, R, pair, share)) {
+      lands_inside(touch, contact::contact_radius(R, d_e), share)) {
     shares.push_back(share);
     return {nullptr, shares};
   }
   const std::span<const char> mask = mask_of(wall, touch.part, touch.of_point);
   const wear::OverlapField field = overlap_field(R, touch.deepest, touch.of_point);
-  const wear::FootprintShares& print =
-      wall.setup().footprint == Footprint::hertz
-          ? scratch().footprint.hertz(candidates_, field,
-                                      contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight), paper,
-                                      mask)
-          : scratch().footprint.overlap(candidates_, field, paper, mask);
+  const wear::FootprintShares& print = wall.setup().footprint == Footprint::hertz
+                                           ? scratch().footprint.hertz(candidates_, field, d_e, paper, mask)
+                                           : scratch().footprint.overlap(candidates_, field, paper, mask);
   if (!(print.total > 0.0)) return {};
   if (print.nodal) return {&print, {}};
   const double part = 1.0 / print.total;
@@ -104,16 +97,26 @@ void SphereWall::deposit_landed(Wall& wall, const Landing& landing, double dV) {
   }
 }
 
-/// What the wall sees of a contact in this step.
+double SphereWall::deposit(Wall& wall, double alpha_s, double R, const contact::PairProperties& pair,
+                           const Sliding& sliding) {
+  double volume = 0.0;
+  for (const Touch& touch : touches_) {
+    const double dV = wear::archard_volume(alpha_s, {std::max(touch.force.F_n, 0.0), sliding.of(touch)});
+    if (dV > 0.0)
+      deposit_landed(
+          wall, land(wall, touch, R, contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight)), dV);
+    volume += dV;
+  }
+  return volume;
+}
+
+/// What the wall sees of a contact in this step; but for its place.
 wear::MapSample SphereWall::sample_of(const Touch& touch, const SphereState& sphere,
-                                      const contact::PairProperties& pair, double dt, double slip) const {
+                                      const contact::PairProperties& pair, const Sliding& sliding) const {
   wear::MapSample sample;
-  sample.work = work_of(touch, slip, sphere.mass, pair, dt);
-  sample.dt = dt;
-  sample.sliding_speed = touch.force.v_t;
-  sample.weight = touch.weight;
-  sample.hertz_area = std::numbers::pi * sphere.radius *
-                      contact::hertz_overlap(pair, sphere.radius, touch.force.F_n / touch.weight);
+  sample.work = work_of(touch, sliding.of(touch), sphere.mass, pair, sliding.dt);
+  sample.load = {norm(touch.force.F_t), touch.force.v_t, sliding.dt,
+                 sphere.radius,         sphere.mass,     touch.weight};
   if (touch.memory < 0) return sample;
   if (const Memory& memory = memory_[at(touch.memory)]; memory.striking) {
     sample.strikes = true;
@@ -124,24 +127,26 @@ wear::MapSample SphereWall::sample_of(const Touch& touch, const SphereState& sph
 
 void SphereWall::record_wear(const Wall& wall, const SphereState& sphere, const contact::PairProperties& pair,
                              const Recording& how, WearRecords& records) {
+  const double R = sphere.radius;
   for (const Touch& touch : touches_) {
-    const double slip = how.by_speed ? touch.force.v_t * how.dt : touch.force.slip;
-    if (how.sliding_only && !(touch.force.F_n > 0.0 && slip > 0.0)) continue;
-    const Landing landing = land(wall, touch, sphere.radius, pair);
-    records.record.push_back(
-        {.contact = how.contact,
-         .wall = how.wall,
-         .material = how.material,
-         .nodal = landing.nodes != nullptr,
-         .first = records.share.size(),
-         .end = 0,
-         .sample = sample_of(touch, sphere, pair, how.dt, slip),
-         .load = {norm(touch.force.F_t), touch.force.v_t, how.dt, sphere.radius, sphere.mass, touch.weight}});
-    if (landing.nodes != nullptr)
-      for (const double load : landing.nodes->at_node) records.share.push_back({.at0 = load});
+    if (how.sliding_only && !(touch.force.F_n > 0.0 && how.sliding.of(touch) > 0.0)) continue;
+    const double d_e = contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight);
+    const Landing landing = land(wall, touch, R, d_e);
+    const bool nodal = landing.nodes != nullptr;
+    WearRecords::Record record{.contact = how.contact,
+                               .wall = how.wall,
+                               .material = how.material,
+                               .nodal = nodal,
+                               .first = nodal ? records.node.size() : records.share.size(),
+                               .end = 0,
+                               .sample = sample_of(touch, sphere, pair, how.sliding)};
+    record.sample.hertz_area = std::numbers::pi * R * d_e;
+    if (nodal)
+      records.node.insert(records.node.end(), landing.nodes->at_node.begin(), landing.nodes->at_node.end());
     else
       records.share.insert(records.share.end(), landing.triangles.begin(), landing.triangles.end());
-    records.record.back().end = records.share.size();
+    record.end = nodal ? records.node.size() : records.share.size();
+    records.record.push_back(record);
   }
 }
 
@@ -149,12 +154,10 @@ void SphereWall::book(Wall& wall, const WearRecords& records, const WearRecords:
                       const wear::MapSample& sample, const MapLayer& map) {
   Landing landing;
   wear::FootprintShares nodes;
-  std::vector<double> load;
   if (record.nodal) {
-    for (std::size_t k = record.first; k < record.end; ++k) load.push_back(records.share[k].at0);
-    for (const double l : load) nodes.total += l;
     nodes.nodal = true;
-    nodes.at_node = load;
+    nodes.at_node = std::span(records.node).subspan(record.first, record.end - record.first);
+    for (const double load : nodes.at_node) nodes.total += load;
     landing.nodes = &nodes;
   } else {
     landing.triangles = std::span(records.share).subspan(record.first, record.end - record.first);
@@ -202,6 +205,16 @@ const std::vector<SphereWall::Spot>& SphereWall::find_spots(const Wall& wall) {
   }
   for (Spot& spot : spots_) spot.n = normalized(spot.n);
   return spots_;
+}
+
+double SphereWall::wear_tip(wear::WearingTip& tip, const Wall& wall, double alpha_s,
+                            const contact::PairProperties& pair, bool due, const Sliding& sliding) {
+  double volume = 0.0;
+  for (const Touch& touch : touches_)
+    volume += wear::archard_volume(alpha_s, {std::max(touch.force.F_n, 0.0), sliding.of(touch)});
+  tip_pending_ += volume;
+  if (due || tip_pending_ > tip_batch_) shape_tip(tip, wall, pair, due);
+  return volume;
 }
 
 /// Takes the pending wear off the tip, in pieces so small that the pressure hardly changes in one. It is

@@ -51,7 +51,8 @@ void SphereWall::map_landed(const MapLayer& map, const Landing& landing,
   for (const WearShare& s : landing.triangles) booking.add(at(s.triangle), s.whole, s.area);
   if (landing.nodes != nullptr) {
     const wear::FootprintShares& shares = *landing.nodes;
-    std::vector<double> density(candidates_.node_count(), 0.0);
+    static thread_local std::vector<double> density;  // at each candidate node [1/m^2]
+    density.assign(candidates_.node_count(), 0.0);
     for (std::size_t i = 0; i < shares.at_node.size() && i < density.size(); ++i)
       density[i] = shares.at_node[i] / (3.0 * shares.total * candidates_.node_area[i]);
     for (std::size_t t = 0; t < candidates_.triangle_count(); ++t) {

@@ -10,10 +10,6 @@
 
 namespace abradem::simulation {
 
-double Simulation::slip_of(const SphereWall::Touch& touch, const Wall& wall) const noexcept {
-  return wears_by_speed(wall) ? touch.force.v_t * dt_ : touch.force.slip;
-}
-
 bool Simulation::wears_by_speed(const Wall& wall) const noexcept {
   return wall.wears_by_speed() || setup_.run.method == Method::quasi_static;
 }
@@ -36,17 +32,16 @@ void Simulation::book_wear() {
         records_.clear();
         contact.record_wear(wall, {{}, {}, {}, particles_.radius[p], particles_.mass[p]},
                             pair(particles_.material[p], wall.material()),
-                            {.dt = dt_,
-                             .by_speed = wears_by_speed(wall),
+                            {.sliding = {dt_, wears_by_speed(wall)},
                              .wall = static_cast<std::int32_t>(w),
                              .material = particles_.material[p]},
                             records_);
         for (const WearRecords::Record& record : records_.record)
           law_[w] += book_contact(contact, records_, record);
       } else if (alpha_s != 0.0) {
-        const double volume = contact.deposit(wall, alpha_s, particles_.radius[p],
-                                              pair(particles_.material[p], wall.material()),
-                                              [&](const SphereWall::Touch& t) { return slip_of(t, wall); });
+        const double volume =
+            contact.deposit(wall, alpha_s, particles_.radius[p],
+                            pair(particles_.material[p], wall.material()), {dt_, wears_by_speed(wall)});
         if (ploughs())
           plough(
               contact, w,
@@ -97,7 +92,7 @@ double Simulation::book_contact(SphereWall& contact, const WearRecords& records,
   } else {
     const wear::Laws& laws = wear_laws(material, walls_[w].material());
     wear::add_work(laws, sample.work, sample.volumes);
-    wear::add_expression(laws, sample.work, record.load, sample.volumes);
+    wear::add_expression(laws, sample.work, sample.load, sample.volumes);
     if (sample.strikes) {
       wear::add_impact(laws, sample.impact, sample.volumes);
       if (laws.strikes()) account_[w].impacts.add(sample.impact, sample.volumes);
@@ -192,7 +187,7 @@ void Simulation::wear_tip(std::size_t p, std::size_t w) {
   if (alpha_s == 0.0) return;
   tip_law_[p] += sphere_walls_[p * walls_.size() + w].wear_tip(
       *tips_[p], walls_[w], alpha_s, pair(particles_.material[p], walls_[w].material()), output_due(),
-      [&](const SphereWall::Touch& t) { return slip_of(t, walls_[w]); });
+      {dt_, wears_by_speed(walls_[w])});
 }
 
 /// Of what leaves the groove the removed fraction is lost, and the rest is piled up beside the contact.

@@ -155,12 +155,13 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
   std::size_t n = candidates.triangle_count();
   while (n > 0 && bound(candidates, field, n - 1) <= cut) --n;
   for (auto* array : {&at0_, &at1_, &at2_}) array->assign(candidates.padded_triangle_count(), 0.0);
-  // Points no further apart than a fifth of the footprint's radius; the sliding averages what is left.
-  constexpr int kFinest = 48;
-  // Compared as it is: a spot of no size asks for infinitely many, a state that is not a number for none.
-  const double wanted = 2.0 * kEdgesPerReach / edges;
-  const int parts = wanted < kFinest ? std::max(static_cast<int>(std::ceil(wanted)), 2) : kFinest;
-  if (worn) choose_points(parts);
+  if (worn) {
+    // Points no further apart than a fifth of the footprint's radius; the sliding averages what is left.
+    constexpr int kFinest = 48;
+    // Compared as it is: a spot of no size asks for infinitely many, a state that is not a number for none.
+    const double wanted = 2.0 * kEdgesPerReach / edges;
+    choose_points(wanted < kFinest ? std::max(static_cast<int>(std::ceil(wanted)), 2) : kFinest);
+  }
   const auto masked_out = [&](std::size_t t) { return !mask.empty() && mask[t] == 0; };
   shares_.total = 0.0;
   for (std::size_t t = 0; t < n; ++t) {
@@ -237,12 +238,10 @@ void FootprintIntegrator::integrate_exactly(const MeshCandidates& candidates, co
   at2_[t] = part.at2;
 }
 
-/// Centroid rule on equal parts of triangle t.
+/// Under a worn tip: centroid rule on equal parts of triangle t.
 template <typename Weight>
 void FootprintIntegrator::subdivide(const MeshCandidates& candidates, const OverlapField& field,
                                     std::size_t t, const Weight& weight) {
-  const bool worn = !field.raw.empty();
-  const std::span<const double> excess = worn ? field.raw : field.excess;
   const auto v0 = static_cast<std::size_t>(candidates.v0[t]), v1 = static_cast<std::size_t>(candidates.v1[t]),
              v2 = static_cast<std::size_t>(candidates.v2[t]);
   const double inverse = 1.0 / (field.R * field.R);
@@ -250,15 +249,14 @@ void FootprintIntegrator::subdivide(const MeshCandidates& candidates, const Over
   const double *b1 = points_.b1.data(), *b2 = points_.b2.data();
   double* e = points_.e.data();
   excess_at(n,
-            {excess[v0], excess[v1], excess[v2], candidates.l01[t] * inverse, candidates.l12[t] * inverse,
-             candidates.l20[t] * inverse},
+            {field.raw[v0], field.raw[v1], field.raw[v2], candidates.l01[t] * inverse,
+             candidates.l12[t] * inverse, candidates.l20[t] * inverse},
             b1, b2, e);
-  if (worn) {  // from the excess of the sphere as new to that of the sphere as it is
-    const Vec3 p0 = candidates.node_position(v0) - field.c, p1 = candidates.node_position(v1) - field.c,
-               p2 = candidates.node_position(v2) - field.c;
-    for (std::size_t i = 0; i < n; ++i)
-      e[i] = field.tip.excess(e[i], (1.0 - b1[i] - b2[i]) * p0 + b1[i] * p1 + b2[i] * p2, field.R);
-  }
+  // From the excess of the sphere as new to that of the sphere as it is.
+  const Vec3 p0 = candidates.node_position(v0) - field.c, p1 = candidates.node_position(v1) - field.c,
+             p2 = candidates.node_position(v2) - field.c;
+  for (std::size_t i = 0; i < n; ++i)
+    e[i] = field.tip.excess(e[i], (1.0 - b1[i] - b2[i]) * p0 + b1[i] * p1 + b2[i] * p2, field.R);
   const Moments sum = weigh_points(n, e, points_.share.data(), b1, b2, points_.w.data(), weight);
   at0_[t] = candidates.area[t] * (sum.all - sum.with1 - sum.with2);
   at1_[t] = candidates.area[t] * sum.with1;

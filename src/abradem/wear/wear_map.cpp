@@ -47,12 +47,12 @@ void WearMap::Booking::add(std::size_t element, double share, double area) noexc
   e.force_sliding += share * (contact.F_n * contact.slip);
   e.shear_work += share * s_.work.shear_work;
   e.normal_work += share * s_.work.normal_loss;
-  e.sliding += share * (s_.weight * contact.slip);
+  e.sliding += share * (s_.load.weight * contact.slip);
   e.finnie += share * s_.volumes[static_cast<std::size_t>(Mechanism::finnie)];
   e.oka += share * s_.volumes[static_cast<std::size_t>(Mechanism::oka)];
   e.expression += share * s_.volumes[static_cast<std::size_t>(Mechanism::expression)];
   e.peak_pressure =
-      std::max(e.peak_pressure, contact.F_n / s_.weight * share / std::min(area, s_.hertz_area));
+      std::max(e.peak_pressure, contact.F_n / s_.load.weight * share / std::min(area, s_.hertz_area));
   if (s_.strikes) {
     const double weight = share * s_.impact.mass * s_.impact.speed * s_.impact.speed;
     e.impacts.mass += share * s_.impact.mass;
@@ -68,9 +68,9 @@ void WearMap::Booking::finish() {
   Spectra& spectra = layer_.regions[map_.region_of(largest_)];
   const ContactSample& contact = s_.work.contact;
   if (contact.slip > 0.0 && contact.F_n > 0.0) {
-    SlidingSums& sums = spectra.sliding[Spectra::sliding_key(contact.F_n / s_.weight, s_.sliding_speed)];
-    sums.time += s_.weight * s_.dt;
-    sums.sliding += s_.weight * contact.slip;
+    SlidingSums& sums = spectra.sliding[Spectra::sliding_key(contact.F_n / s_.load.weight, s_.load.v_t)];
+    sums.time += s_.load.weight * s_.load.dt;
+    sums.sliding += s_.load.weight * contact.slip;
     sums.force_sliding += contact.F_n * contact.slip;
     sums.shear_work += s_.work.shear_work;
   }

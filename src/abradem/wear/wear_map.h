@@ -133,11 +133,9 @@ struct Spectra {
 /// What one contact does in one step, as the map books it.
 struct MapSample {
   WorkSample work;
-  double dt = 0.0;             ///< [s]
-  double weight = 1.0;         ///< share of the contact that this is; forces and work have it already [-]
-  double sliding_speed = 0.0;  ///< [m/s]
-  double hertz_area = 0.0;     ///< of the circle that Hertz's contact of its force has [m^2]
-  bool strikes = false;        ///< its impact falls on the wall in this step
+  ContactLoad load;         ///< its weight: forces and work have it already
+  double hertz_area = 0.0;  ///< of the circle that Hertz's contact of its force has [m^2]
+  bool strikes = false;     ///< its impact falls on the wall in this step
   Impact impact;
   MechanismVolumes volumes{};  ///< of this step [m^3]
 };

@@ -11,9 +11,12 @@
 #include <numbers>
 
 #include "abradem/io/case_problems.h"
+#include "support/says.h"
 
 namespace abradem::io {
 namespace {
+
+using test::contains;
 
 namespace fs = std::filesystem;
 using CaseSetup = simulation::Setup;
@@ -68,11 +71,6 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   const std::size_t at = text.find(what);
   EXPECT_NE(at, std::string::npos) << what;
   return text.replace(at, what.size(), by);
-}
-
-testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
 }
 
 TEST(CaseFile, TheExampleSaysWhatItSays) {

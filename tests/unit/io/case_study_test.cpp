@@ -8,9 +8,12 @@
 
 #include "abradem/io/case_file.h"
 #include "abradem/study/variations.h"
+#include "support/says.h"
 
 namespace abradem::io {
 namespace {
+
+using test::contains;
 
 std::string pin_on_disc() {
   std::ifstream file(ABRADEM_SOURCE_DIR "/cases/pin-on-disc.toml", std::ios::binary);
@@ -47,11 +50,6 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   const std::size_t at = text.find(what);
   EXPECT_NE(at, std::string::npos) << what;
   return text.replace(at, what.size(), by);
-}
-
-testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
 }
 
 /// "study.toml:LINE:" of the line that holds this text.

@@ -6,9 +6,12 @@
 #include "abradem/io/case_file.h"
 #include "abradem/io/case_schema.h"
 #include "abradem/wear/expression.h"
+#include "support/says.h"
 
 namespace abradem::io {
 namespace {
+
+using test::contains;
 
 using simulation::WearLaw;
 
@@ -50,11 +53,6 @@ std::string refusal(const std::string& wear, const std::vector<std::string>& ove
   }
   return "accepted";
 }
-testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
-}
-
 TEST(ExpressionCase, IsReadWithItsConstants) {
   const Case found = read(
       "law = [\"archard\", \"expression\"]\nwear_coefficient = 1e-12\n"

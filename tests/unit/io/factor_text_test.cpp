@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "abradem/core/error.h"
+#include "support/says.h"
 
 namespace abradem::io {
 namespace {
+
+using test::contains;
 
 using Strings = std::vector<std::string>;
 
@@ -17,11 +20,6 @@ std::string complaint(const std::string& text) {
     return error.what();
   }
   return "no complaint";
-}
-
-testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "'" << part << "' is not in: " << text;
 }
 
 TEST(FactorText, SplitsAtCommasOutsideQuotesAndBrackets) {
