@@ -40,6 +40,8 @@ struct Work {
   const PairTable* table;
   double dt;
 
+  bool one_material;  ///< the chunk holds the constants
+
   [[nodiscard]] const PairConstants& constants(std::size_t k) const noexcept {
     return table->of(sphere[i[k]].material, sphere[j[k]].material);
   }
@@ -194,7 +196,7 @@ ABRADEM_INLINE double forces_of_chunk(const Work& w, PairChunk& p, std::size_t c
   if constexpr (kOptions) {
     full_law(w, p, padded);
   } else {
-    if (w.table->materials > 1)
+    if (!w.one_material)
       for (std::size_t k = 0; k < padded; ++k) p.c.set_constants(k, w.constants(k));
     hertz_mindlin_loop(p.c, padded, w.dt);
     for (std::size_t k = 0; k < padded; ++k) w.touching[k] = p.c.overlap[k] > 0.0 ? 1 : 0;
@@ -294,8 +296,10 @@ struct Step {
     clear(begin(b), end(b));
     clear(list.size() + at(list.guest_start[b]), list.size() + at(list.guest_start[b + 1]));
     PairChunk chunk;
-    if (table.materials == 1)
-      for (std::size_t k = 0; k < kCapacity; ++k) chunk.c.set_constants(k, table.pair[0]);
+    if (list.one_material()) {
+      const double m = spheres.row.front().material;
+      for (std::size_t k = 0; k < kCapacity; ++k) chunk.c.set_constants(k, table.of(m, m));
+    }
     ContactBlock& block = list.near[b];
     const Work work{spheres.row.data(),
                     block.i.data(),
@@ -310,7 +314,8 @@ struct Step {
                     list.shifts.data(),
                     load.data(),
                     &table,
-                    dt};
+                    dt,
+                    list.one_material()};
     const BlockForces closed = table.options ? periodic_with_options : periodic;
     const BlockForces open = table.options ? with_options : block_forces;
     return !((block.image.empty() ? open : closed)(work, block.count, chunk) > 0.0);

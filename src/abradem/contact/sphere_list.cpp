@@ -39,18 +39,70 @@ void radix_sort(std::vector<KeyedIndex>& items) {
   }
 }
 
+/// Brings the sphere at order[i].index to place i, for every i, in place: a second copy of a million of them
+/// would be a fifth of all memory. Spoils the indices.
+void reorder(Spheres& spheres, std::vector<KeyedIndex>& order) {
+  constexpr auto kDone = std::numeric_limits<std::uint32_t>::max();
+  const bool clumps = !spheres.clump.empty();
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (order[i].index == kDone) continue;
+    const SphereRow row = spheres.row[i];
+    const std::int32_t id = spheres.id[i], clump = clumps ? spheres.clump[i] : 0;
+    std::size_t to = i;
+    for (;;) {  // along the cycle that i belongs to
+      const std::size_t from = std::exchange(order[to].index, kDone);
+      if (from == i) break;
+      spheres.row[to] = spheres.row[from];
+      spheres.id[to] = spheres.id[from];
+      if (clumps) spheres.clump[to] = spheres.clump[from];
+      to = from;
+    }
+    spheres.row[to] = row;
+    spheres.id[to] = id;
+    if (clumps) spheres.clump[to] = clump;
+  }
+}
+
+/// Closes the gaps of those that are to be taken out. @return where each that stays has been
+std::vector<std::int32_t> close_gaps(Spheres& spheres) {
+  std::vector<std::int32_t> was;
+  was.reserve(spheres.size());
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    if (spheres.id[i] < 0) continue;
+    const std::size_t to = was.size();
+    was.push_back(static_cast<std::int32_t>(i));
+    if (to == i) continue;
+    spheres.row[to] = spheres.row[i];
+    spheres.id[to] = spheres.id[i];
+    if (!spheres.clump.empty()) spheres.clump[to] = spheres.clump[i];
+  }
+  spheres.row.resize(was.size());
+  spheres.id.resize(was.size());
+  if (!spheres.clump.empty()) spheres.clump.resize(was.size());
+  return was;
+}
+
 }  // namespace
 
 void SphereList::rebuild(Spheres& spheres, double skin, double margin) {
   double largest = 0.0;
   for (const SphereRow& s : spheres.row) largest = std::max(largest, s.radius);
-  const std::vector<ContactBlock> before = std::move(near);
+  // Of the lists before, only what touches is needed, so that two of them do not stand side by side.
+  std::vector<ContactBlock> before = std::move(near);
+  core::parallel_blocks(before.size(), [&](std::size_t b) { before[b].keep_touching(); });
+  std::vector<std::int32_t>().swap(partner);
   sort_along_curve(spheres, 2.0 * largest + skin);
   count_ = spheres.size();
+  one_material_ = all_of_one_material(spheres);
   find_pairs(spheres, skin);
   find_guests();
   fill_near(spheres, margin, before, false);
   ++rebuilds_;
+}
+
+bool SphereList::all_of_one_material(const Spheres& spheres) noexcept {
+  return std::ranges::all_of(spheres.row,
+                             [&](const SphereRow& s) { return s.material == spheres.row.front().material; });
 }
 
 void SphereList::find_near(const Spheres& spheres, double margin) { fill_near(spheres, margin, near, true); }
@@ -81,16 +133,15 @@ void SphereList::sort_along_curve(Spheres& spheres, double cell) {
   if (period_ != Vec3{})
     for (SphereRow& s : spheres.row)
       wrap(s.x, low_.x, period_.x), wrap(s.y, low_.y, period_.y), wrap(s.z, low_.z, period_.z);
+  const std::vector<std::int32_t> was = close_gaps(spheres);
   constexpr double kInf = std::numeric_limits<double>::infinity();
   Vec3 low{kInf, kInf, kInf}, high = -low;
-  std::vector<KeyedIndex> order;
-  order.reserve(spheres.size());
+  std::vector<KeyedIndex> order(spheres.size());
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    if (spheres.id[i] < 0) continue;
     const SphereRow& s = spheres.row[i];
     low = {std::min(low.x, s.x), std::min(low.y, s.y), std::min(low.z, s.z)};
     high = {std::max(high.x, s.x), std::max(high.y, s.y), std::max(high.z, s.z)};
-    order.push_back({0, static_cast<std::uint32_t>(i)});
+    order[i].index = static_cast<std::uint32_t>(i);
   }
   if (order.empty()) low = high = {};
   // No more cells than some per sphere, however far one has strayed, and no more than the key can hold.
@@ -126,31 +177,16 @@ void SphereList::sort_along_curve(Spheres& spheres, double cell) {
   };
   core::parallel_for(
       order.size(),
-      [&](std::size_t k) {
-        const auto c = cell_of(spheres.row[order[k].index]);
-        order[k].key = spread_bits(c[0]) | (spread_bits(c[1]) << 1) | (spread_bits(c[2]) << 2);
+      [&](std::size_t i) {
+        const auto c = cell_of(spheres.row[i]);
+        order[i].key = spread_bits(c[0]) | (spread_bits(c[1]) << 1) | (spread_bits(c[2]) << 2);
       },
       kBlock);
   radix_sort(order);
 
-  Spheres sorted;
-  sorted.row.resize(order.size());
-  sorted.id.resize(order.size());
   was_.resize(order.size());
-  core::parallel_for(
-      order.size(),
-      [&](std::size_t i) {
-        sorted.row[i] = spheres.row[order[i].index];
-        sorted.id[i] = spheres.id[order[i].index];
-        was_[i] = static_cast<std::int32_t>(order[i].index);
-      },
-      kBlock);
-  spheres.row.swap(sorted.row);
-  spheres.id.swap(sorted.id);
-  if (!spheres.clump.empty()) {
-    for (const std::int32_t was : was_) sorted.clump.push_back(spheres.clump[at(was)]);
-    spheres.clump.swap(sorted.clump);
-  }
+  for (std::size_t i = 0; i < order.size(); ++i) was_[i] = was[order[i].index];
+  reorder(spheres, order);
 
   const std::size_t total = at(nx_) * at(ny_) * at(nz_);
   cell_begin_.assign(total, 0);
@@ -305,6 +341,7 @@ bool SphereList::restore(const Spheres& spheres) {
       if (partner[k] <= last || at(partner[k]) >= spheres.size()) return false;
   }
   count_ = spheres.size();
+  one_material_ = all_of_one_material(spheres);
   if (near.size() != blocks()) return false;
   find_guests();
   for (std::size_t b = 0; b < blocks(); ++b)
@@ -369,6 +406,26 @@ void ContactBlock::remember(std::size_t k, const std::vector<ContactBlock>& befo
   if (torque.empty() || old.torque.empty()) return;
   const SpringRow& t = old.torque[o];  // about the normal it is the same seen from either side
   torque[k] = {sign * t.x, sign * t.y, sign * t.z, t.twist};
+}
+
+void ContactBlock::keep_touching() {
+  ContactBlock kept;
+  const auto touches = static_cast<std::size_t>(std::ranges::count(touching, 1));
+  kept.first.reserve(first.size()), kept.j.reserve(touches);
+  kept.sx.reserve(touches), kept.sy.reserve(touches), kept.sz.reserve(touches);
+  for (std::size_t s = 0, k = 0; s + 1 < first.size(); ++s) {
+    kept.first.push_back(static_cast<std::int32_t>(kept.j.size()));
+    for (; k < at(first[s + 1]); ++k) {
+      if (touching[k] == 0) continue;
+      kept.j.push_back(j[k]);
+      kept.sx.push_back(sx[k]), kept.sy.push_back(sy[k]), kept.sz.push_back(sz[k]);
+      if (!torque.empty()) kept.torque.push_back(torque[k]);
+    }
+  }
+  kept.first.push_back(static_cast<std::int32_t>(kept.j.size()));
+  kept.count = kept.j.size();
+  kept.touching.assign(kept.count, 1);
+  *this = std::move(kept);
 }
 
 void ContactBlock::take(const ContactBlock& from) {

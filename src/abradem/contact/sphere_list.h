@@ -33,6 +33,8 @@ struct ContactBlock {
                 double sign);
   /// A copy no longer than it need be.
   void take(const ContactBlock& from);
+  /// Forgets the pairs that do not touch, and of the others all but what remember() asks for.
+  void keep_touching();
   /// Fills up the columns of who touches whom.
   void repeat_last();
   /// The spring of pair k [m].
@@ -89,6 +91,8 @@ class SphereList {
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
   [[nodiscard]] std::size_t blocks() const noexcept { return (count_ + kBlock - 1) / kBlock; }
   [[nodiscard]] std::size_t pairs() const noexcept { return partner.size(); }
+  /// Are all spheres of one material?
+  [[nodiscard]] bool one_material() const noexcept { return one_material_; }
   /// Rows of loads: one for each sphere, and then those of the guests.
   [[nodiscard]] std::size_t load_rows() const noexcept { return count_ + guest.size(); }
   [[nodiscard]] std::uint64_t rebuilds() const noexcept { return rebuilds_; }
@@ -116,7 +120,9 @@ class SphereList {
   [[nodiscard]] bool restore_block(const Spheres& spheres, std::size_t block);
   [[nodiscard]] std::uint8_t image_of(const Vec3& apart) const noexcept;
 
-  bool torques_ = false;
+  [[nodiscard]] static bool all_of_one_material(const Spheres& spheres) noexcept;
+
+  bool torques_ = false, one_material_ = false;
   std::size_t count_ = 0;
   std::uint64_t rebuilds_ = 0;
   // The grid that the spheres were sorted by.

@@ -165,6 +165,15 @@ void BulkWalls::prepare(const contact::Spheres& spheres, const Surroundings& aro
   }
 }
 
+/// By its own way over the wall, which most often is much less than the bound for all.
+bool BulkWalls::sleeps_on(const NearMesh& m, const contact::SphereRow& s,
+                          const Surroundings& around) noexcept {
+  if (!(m.gap > 0.0)) return false;
+  const double left = m.gap - (around.walls[at(m.wall)].surface().odometer() - m.seen_wear);
+  const Vec3 moved = around.poses[at(m.wall)].to_body(s.position()) - m.seen_at;
+  return left > 0.0 && norm2(moved) < left * left;
+}
+
 void BulkWalls::prepare(NearMesh& m, const contact::SphereRow& s, const Surroundings& around) {
   const geometry::Pose& pose = around.poses[at(m.wall)];
   Wall& wall = around.walls[at(m.wall)];
@@ -193,7 +202,7 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
         wear_[part].clear();
         const std::size_t end = std::min(meshes_.size(), kPart * (part + 1));
         for (std::size_t k = kPart * part; k < end; ++k)
-          if (meshes_[k].awake) {
+          if (meshes_[k].awake && !sleeps_on(meshes_[k], spheres.row[at(meshes_[k].sphere)], around)) {
             if (k + 2 < end) meshes_[k + 2].contact->fetch();
             if (k + 1 < end) meshes_[k + 1].contact->fetch_arrays();
             if (!around.ploughs) meshes_[k].contact->lend(&scratch);
@@ -214,7 +223,10 @@ bool BulkWalls::compute(std::size_t k, const contact::SphereRow& s, const Surrou
   const geometry::Pose& pose = around.poses[at(m.wall)];
   const material::PairProperties& pair = around.pair(static_cast<int>(s.material), wall.material());
   m.contact->find(wall, pose.to_body(s.position()), s.radius, pair);
-  m.clear = std::max(m.clear, m.come + m.contact->clearance(wall));
+  m.gap = m.contact->clearance(wall);
+  m.seen_at = m.contact->centre();
+  m.seen_wear = wall.surface().odometer();
+  m.clear = std::max(m.clear, m.come + m.gap);
   if (m.contact->touches().empty() && m.load.stiffening == 0.0 && m.load.force() == Vec3{}) return false;
   const SphereState sphere = state_of(s);
   const ForceAndTorque f = m.contact->compute(wall, pose, sphere, pair, around.dt);
