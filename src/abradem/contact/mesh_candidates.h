@@ -51,6 +51,9 @@ class MeshCandidates {
   /// How far a sphere at c that is not stale, and the surface, may still move in any direction [m].
   [[nodiscard]] double skin_left(const Vec3& c) const noexcept;
 
+  /// What `reach` may grow to before they are stale [m].
+  [[nodiscard]] double built_reach() const noexcept { return built_reach_; }
+
   /// Brings the candidates up to date for a sphere at c: gathers anew when stale, else fetches moved
   /// vertices.
   /// @param axis unit vector from c towards the surface (the last contact's), or zero: unknown

@@ -120,6 +120,14 @@ double PointContactFinder::clearance() const noexcept {
   return least - way_;
 }
 
+double PointContactFinder::room_beside() const noexcept {
+  const std::int32_t own = found().touched.front().triangle;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < wake_.size(); ++t)
+    if (t != at(own)) least = std::min(least, wake_[t]);
+  return least - way_;
+}
+
 std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates,
                                                                const Vec3& c, double R, const Tip& tip) {
   Findings& f = found();

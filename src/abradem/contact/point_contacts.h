@@ -63,6 +63,10 @@ class PointContactFinder {
   /// any of the candidates [m].
   [[nodiscard]] double clearance() const noexcept;
 
+  /// After a call that touched one triangle: how far the sphere and the surface must come before the ball
+  /// reaches another [m].
+  [[nodiscard]] double room_beside() const noexcept;
+
   /// `resolved`: set of each candidate triangle, or -1 where it is not overlapped.
   [[nodiscard]] std::span<const int> sets() const noexcept { return found().set; }
 

@@ -29,6 +29,8 @@ void weigh(contact::ContactForce& force, double weight) noexcept {
 void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
                          const contact::PairProperties& pair, double load, double dt) {
   if (wall.is_plane()) return;
+  on_face_ = stays_on_face(wall, c, load) && touch_face(wall, c, R, pair);
+  if (on_face_) return;
   // The Hertz footprint reaches down to half its approach below the deepest point, which in a conforming
   // groove lies outside the ball.
   const double approach = contact::hertz_overlap(pair, R, load);
@@ -52,8 +54,61 @@ void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
   if (stale_) book_elements(wall);
 }
 
+std::array<Vec3, 3> SphereWall::corners_of(std::size_t t) const noexcept {
+  return {candidates_.node_position(at(candidates_.v0[t])), candidates_.node_position(at(candidates_.v1[t])),
+          candidates_.node_position(at(candidates_.v2[t]))};
+}
+
+/// @return whether the ball still touches the face
+bool SphereWall::touch_face(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
+  const auto closest =
+      geometry::closest_point_on_triangle(c, face_.corner[0], face_.corner[1], face_.corner[2]);
+  const Vec3 offset = c - closest.point;
+  const double distance = norm(offset);
+  if (distance >= R || distance == 0.0 || dot(face_.normal, offset) < 0.0) return false;
+  const double overlap = R - distance;
+  if (wall.setup().contact == ContactRule::automatic &&
+      contact::fineness(contact::contact_radius(R, overlap), face_.width) == 1.0)
+    return false;  // a patch stands for it
+  const contact::PointContact point{closest.point,   offset / distance, overlap,
+                                    closest.feature, face_.local,       face_.local};
+  touches_.clear();
+  touch_points(wall, R, pair, {&point, 1});
+  noted_at_ = c;  // as a search would have it
+  return true;
+}
+
+/// After a search: does its result hold for some way? Only where nobody asks for what the search leaves
+/// behind (search_all), and never on a sheet, whose faces have two sides.
+void SphereWall::note_face(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
+  face_.triangle = -1;
+  const ContactRule rule = wall.setup().contact;
+  const bool points = rule == ContactRule::resolved || rule == ContactRule::automatic;
+  if (!points || scratch_ == nullptr || tip_.worn() || wall.setup().sides == Sides::both ||
+      pair.options.adhesion > 0.0 || touches_.size() != 1 || !touches_.front().of_point ||
+      touches_.front().weight != 1.0 || points_.touched().size() != 1 || owes_elements())
+    return;
+  const double room = std::min(points_.room_beside(), candidates_.skin_left(c));
+  if (!(room > 0.0)) return;
+  const std::size_t t = at(touches_.front().nearest);
+  face_.triangle = candidates_.triangle[t];
+  face_.local = static_cast<std::int32_t>(t);
+  face_.revision = wall.view().revision;
+  face_.at = c;
+  face_.room = room;
+  face_.load = 0.999 * contact::hertz_force(pair, R, 2.0 * (candidates_.built_reach() - R));
+  face_.width = contact::width_of(candidates_, t);
+  face_.corner = corners_of(t);
+  face_.normal = {candidates_.ax[t], candidates_.ay[t], candidates_.az[t]};
+  face_.area = candidates_.area[t];
+}
+
 void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
   centre_ = c;
+  if (on_face_) {
+    axis_ = -touches_.front().n;
+    return;
+  }
   if (wall.is_plane()) {
     touches_.clear();
     touch_plane(wall, c, R, pair);
@@ -80,6 +135,7 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
       break;
   }
   if (!touches_.empty()) axis_ = -touches_.front().n;
+  note_face(wall, c, R, pair);
 }
 
 double SphereWall::clearance(const Wall& wall) const noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -125,12 +126,14 @@ class SphereWall {
   /// there, its arrays.
   void fetch() const noexcept {
     const auto* from = reinterpret_cast<const char*>(this);
-    for (const auto* line = from; line < reinterpret_cast<const char*>(&patches_); line += 64)
+    for (const auto* line = from; line < reinterpret_cast<const char*>(&tip_); line += 64)
       __builtin_prefetch(line);
   }
   void fetch_arrays() const noexcept {
-    candidates_.fetch();
-    points_.fetch();
+    if (face_.triangle < 0) {
+      candidates_.fetch();
+      points_.fetch();
+    }
     const auto ask = [](const auto& list) {
       if (list.empty()) return;
       const char* from = reinterpret_cast<const char*>(list.data());
@@ -299,6 +302,29 @@ class SphereWall {
     int part = 0;
     bool of_point = false;
   };
+  /// The one triangle that a point contact lies on, of many contacts with meshes all that a step reads of
+  /// them. While the surface is the same and the sphere near `at`, the ball reaches no other triangle, the
+  /// candidates are not stale, and so a search would give the same bits.
+  struct Face {
+    geometry::Index triangle = -1;  // of the mesh; -1: there is none
+    std::int32_t local = 0;         // in the candidates
+    std::uint64_t revision = 0;     // of the surface
+    Vec3 at;                        // the sphere's centre when it was searched for
+    double room = 0.0;              // [m]
+    double load = 0.0;              // up to which the candidates reach far enough [N]
+    double width = 0.0;             // [m]
+    std::array<Vec3, 3> corner;
+    Vec3 normal;        // times area
+    double area = 0.0;  // [m^2]
+  };
+  [[nodiscard]] std::array<Vec3, 3> corners_of(std::size_t t) const noexcept;
+  [[nodiscard]] bool stays_on_face(const Wall& wall, const Vec3& c, double load) const noexcept {
+    return face_.triangle >= 0 && wall.surface().revision() == face_.revision && load <= face_.load &&
+           norm2(c - face_.at) < face_.room * face_.room;
+  }
+  [[nodiscard]] bool touch_face(const Wall& wall, const Vec3& c, double R,
+                                const contact::PairProperties& pair);
+  void note_face(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
   const std::vector<Spot>& find_spots(const Wall& wall);
   [[nodiscard]] std::span<const char> mask_of(const Wall& wall, int part, bool of_point);
   [[nodiscard]] wear::OverlapField overlap_field(double R, double deepest, bool of_point);
@@ -347,7 +373,9 @@ class SphereWall {
   // What a step needs of a point contact stands in front: of thousands of these objects it is all that is
   // read.
   Scratch* scratch_ = nullptr;
-  bool stale_ = true;  // the candidates were gathered anew in this step
+  bool stale_ = true;     // the candidates were gathered anew in this step
+  bool on_face_ = false;  // this step's contact was found on face_, without a search
+  Face face_;
   double reach_ = 0.0;
   contact::CandidateSkin skin_;
   Vec3 noted_at_;

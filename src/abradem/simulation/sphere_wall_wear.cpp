@@ -16,10 +16,9 @@ std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 /// point, so that its moments with the (linear) shape functions are these functions there: no integral is
 /// needed.
 bool SphereWall::lands_inside(const Touch& touch, double a, WearShare& share) const {
-  const auto t = static_cast<std::size_t>(touch.nearest);
-  const Vec3 p0 = candidates_.node_position(at(candidates_.v0[t])),
-             p1 = candidates_.node_position(at(candidates_.v1[t])),
-             p2 = candidates_.node_position(at(candidates_.v2[t]));
+  const std::size_t t = at(touch.nearest);
+  const std::array<Vec3, 3> p = on_face_ ? face_.corner : corners_of(t);
+  const Vec3 &p0 = p[0], &p1 = p[1], &p2 = p[2];
   const Vec3 area = cross(p1 - p0, p2 - p0);
   const double area2 = norm2(area);
   // Shares of the area opposite each corner; over an edge's length, distances from the edges.
@@ -28,7 +27,8 @@ bool SphereWall::lands_inside(const Touch& touch, double a, WearShare& share) co
   const double size = std::sqrt(area2);
   if (b0 * size < a * norm(p2 - p1) || b1 * size < a * norm(p0 - p2) || b2 * size < a * norm(p1 - p0))
     return false;
-  share = {candidates_.triangle[t], 1.0, b0, b1, b2, candidates_.area[t]};
+  share = on_face_ ? WearShare{face_.triangle, 1.0, b0, b1, b2, face_.area}
+                   : WearShare{candidates_.triangle[t], 1.0, b0, b1, b2, candidates_.area[t]};
   return true;
 }
 
@@ -60,6 +60,10 @@ SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, doubl
       lands_inside(touch, contact::contact_radius(R, d_e), share)) {
     shares.push_back(share);
     return {nullptr, shares};
+  }
+  if (on_face_) {  // all triangles are asked for now
+    points_.resolved(candidates_, centre_, R);
+    on_face_ = false;
   }
   const std::span<const char> mask = mask_of(wall, touch.part, touch.of_point);
   const wear::OverlapField field = overlap_field(R, touch.deepest, touch.of_point);
