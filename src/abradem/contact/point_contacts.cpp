@@ -54,34 +54,28 @@ bool stronger(const PointContact& a, const PointContact& b) noexcept {
 
 }  // namespace
 
-/// What the sphere has come since the candidates were gathered, and the surface towards it.
-void PointContactFinder::travel(const MeshCandidates& candidates, const Vec3& c, double R) {
-  if (stamp_ != candidates.stamp() || radius_ != R) {
-    wake_.assign(candidates.triangle_count(), 0.0);
-    way_ = 0.0;
-  } else {
-    way_ += norm(c - last_) + candidates.odometer() - odometer_;
-  }
+void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip,
+                                 bool sheet) {
+  Findings& f = found();
+  if (stamp_ != candidates.stamp() || radius_ != R) bound_.assign(candidates.triangle_count(), {});
   stamp_ = candidates.stamp();
   radius_ = R;
   last_ = c;
   odometer_ = candidates.odometer();
-}
-
-void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip,
-                                 bool sheet) {
-  Findings& f = found();
-  travel(candidates, c, R);
   f.touched.clear();
   excess_known_ = false;
+  const double rounding = 1e-14 * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + R);
   for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
-    if (wake_[t] > way_) continue;
+    if (dot(bound_[t].away, c) - odometer_ > bound_[t].level) continue;
     const auto closest = geometry::closest_point_on_triangle(
         c, candidates.node_position(at(candidates.v0[t])), candidates.node_position(at(candidates.v1[t])),
         candidates.node_position(at(candidates.v2[t])));
     const Vec3 offset = c - closest.point;
     const double distance = norm(offset);
-    if (distance >= R) wake_[t] = way_ + 0.999 * (distance - R);  // less by what rounding might do
+    if (distance >= R) {
+      const Vec3 away = offset / distance;
+      bound_[t] = {away, dot(away, c) - odometer_ - (distance - R) + rounding};
+    }
     if (distance >= R || distance == 0.0) continue;
     // A triangle seen from behind belongs to the far side of the solid.
     if (!sheet &&
@@ -114,18 +108,21 @@ std::span<const double> PointContactFinder::node_excess(const MeshCandidates& ca
   return found().excess;
 }
 
-double PointContactFinder::clearance() const noexcept {
-  double least = std::numeric_limits<double>::infinity();
-  for (const double wake : wake_) least = std::min(least, wake);
-  return least - way_;
-}
-
-double PointContactFinder::room_beside() const noexcept {
-  const std::int32_t own = found().touched.front().triangle;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < wake_.size(); ++t)
-    if (t != at(own)) least = std::min(least, wake_[t]);
-  return least - way_;
+FreeWay PointContactFinder::free_way(double most) const noexcept {
+  FreeWay way{.from = last_, .wear = odometer_, .any = most};
+  way.gap.fill(std::numeric_limits<double>::infinity());
+  const auto touched = [&](std::size_t t) {
+    return std::ranges::any_of(found().touched, [&](const PointContact& p) { return at(p.triangle) == t; });
+  };
+  for (std::size_t t = 0; t < bound_.size(); ++t) {
+    double gap = dot(bound_[t].away, last_) - odometer_ - bound_[t].level;
+    if (gap >= way.any || touched(t)) continue;
+    Vec3 away = bound_[t].away;
+    for (std::size_t k = 0; k < FreeWay::kNearest; ++k)
+      if (gap < way.gap[k]) std::swap(gap, way.gap[k]), std::swap(away, way.away[k]);
+    way.any = std::min(way.any, gap);
+  }
+  return way;
 }
 
 std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,6 +21,31 @@ struct PointContact {
   geometry::Feature feature = geometry::Feature::face;
   std::int32_t triangle = 0;  ///< local, in the candidates
   int set = 0;                ///< `resolved`: its connected flat set; otherwise its own number
+};
+
+/// Where a sphere may go from a place before it can touch more than it does there.
+///
+/// The distance from a triangle is a convex function of the place: it grows at least as its gradient says,
+/// the unit vector away from the nearest point, and shrinks by no more than the surface wears. So each
+/// triangle allows a half-space; of the nearest these are kept, of the others the least distance.
+struct FreeWay {
+  static constexpr std::size_t kNearest = 4;
+  Vec3 from;                           ///< [m]
+  double wear = 0.0;                   ///< the surface's odometer there [m]
+  double any = 0.0;                    ///< way in any direction; 0: none [m]
+  std::array<Vec3, kNearest> away{};   ///< unit vectors, or zero
+  std::array<double, kNearest> gap{};  ///< to each [m]
+
+  /// Does the sphere, now at c, touch nothing new?
+  [[nodiscard]] bool holds(const Vec3& c, double odometer) const noexcept {
+    const Vec3 moved = c - from;
+    const double worn = odometer - wear, left = any - worn;
+    bool free = left > 0.0 && norm2(moved) < left * left;
+    for (std::size_t k = 0; k < kNearest; ++k) free = free && dot(away[k], moved) + gap[k] > worn;
+    return free;
+  }
+  /// Way in any direction, past the nearest triangles too [m].
+  [[nodiscard]] double least() const noexcept { return std::min(any, *std::ranges::min_element(gap)); }
 };
 
 /// The point-contact rules: what the sphere's ball touches, each feature once, face before edge before
@@ -59,31 +87,30 @@ class PointContactFinder {
 
   /// Every triangle that the ball cut in the last call, each by its nearest point.
   [[nodiscard]] std::span<const PointContact> touched() const noexcept { return found().touched; }
-  /// After a call that found nothing: how far the sphere and the surface must come before the ball reaches
-  /// any of the candidates [m].
-  [[nodiscard]] double clearance() const noexcept;
-
-  /// After a call that touched one triangle: how far the sphere and the surface must come before the ball
-  /// reaches another [m].
-  [[nodiscard]] double room_beside() const noexcept;
+  /// From the place of the last call, and within `most`, until the ball reaches a triangle that it did not
+  /// touch there.
+  [[nodiscard]] FreeWay free_way(double most) const noexcept;
 
   /// `resolved`: set of each candidate triangle, or -1 where it is not overlapped.
   [[nodiscard]] std::span<const int> sets() const noexcept { return found().set; }
 
   /// Asks the memory for what the next call reads.
-  void fetch() const noexcept { __builtin_prefetch(wake_.data()); }
+  void fetch() const noexcept { __builtin_prefetch(bound_.data()); }
 
  private:
   void collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip, bool sheet);
-  void travel(const MeshCandidates& candidates, const Vec3& c, double R);
   void find_excess(const MeshCandidates& candidates);
   void find_flat_sets(const MeshCandidates& candidates);
   [[nodiscard]] Findings& found() noexcept { return lent_ != nullptr ? *lent_ : own_; }
   [[nodiscard]] const Findings& found() const noexcept { return lent_ != nullptr ? *lent_ : own_; }
 
-  // Triangles out of reach: how far the sphere and the surface must have come before each can be touched.
-  std::vector<double> wake_;  // [m]
-  double way_ = 0.0, odometer_ = 0.0, radius_ = 0.0;
+  /// A triangle out of reach stays there while away . x - odometer > level.
+  struct Bound {
+    Vec3 away;
+    double level = std::numeric_limits<double>::infinity();  // [m]
+  };
+  std::vector<Bound> bound_;
+  double odometer_ = 0.0, radius_ = 0.0;
   Vec3 last_;
   std::uint64_t stamp_ = 0;  // of the candidates that these are of
   bool excess_known_ = false;

@@ -168,10 +168,8 @@ void BulkWalls::prepare(const contact::Spheres& spheres, const Surroundings& aro
 /// By its own way over the wall, which most often is much less than the bound for all.
 bool BulkWalls::sleeps_on(const NearMesh& m, const contact::SphereRow& s,
                           const Surroundings& around) noexcept {
-  if (!(m.gap > 0.0)) return false;
-  const double left = m.gap - (around.walls[at(m.wall)].surface().odometer() - m.seen_wear);
-  const Vec3 moved = around.poses[at(m.wall)].to_body(s.position()) - m.seen_at;
-  return left > 0.0 && norm2(moved) < left * left;
+  return m.way.any > 0.0 && m.way.holds(around.poses[at(m.wall)].to_body(s.position()),
+                                        around.walls[at(m.wall)].surface().odometer());
 }
 
 void BulkWalls::prepare(NearMesh& m, const contact::SphereRow& s, const Surroundings& around) {
@@ -223,10 +221,8 @@ bool BulkWalls::compute(std::size_t k, const contact::SphereRow& s, const Surrou
   const geometry::Pose& pose = around.poses[at(m.wall)];
   const material::PairProperties& pair = around.pair(static_cast<int>(s.material), wall.material());
   m.contact->find(wall, pose.to_body(s.position()), s.radius, pair);
-  m.gap = m.contact->clearance(wall);
-  m.seen_at = m.contact->centre();
-  m.seen_wear = wall.surface().odometer();
-  m.clear = std::max(m.clear, m.come + m.gap);
+  m.way = m.contact->free_way(wall);
+  m.clear = std::max(m.clear, m.come + m.way.least());
   if (m.contact->touches().empty() && m.load.stiffening == 0.0 && m.load.force() == Vec3{}) return false;
   const SphereState sphere = state_of(s);
   const ForceAndTorque f = m.contact->compute(wall, pose, sphere, pair, around.dt);

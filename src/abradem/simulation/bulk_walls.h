@@ -21,14 +21,12 @@ class BulkWalls {
   struct NearMesh {
     std::int32_t sphere = 0;  ///< index in the order now
     std::int32_t id = 0, wall = 0;
-    double clear = 0.0;      ///< it cannot touch before it and the wall have moved so far [m]
-    double come = 0.0;       ///< how far they have, since the rebuild [m]
-    bool awake = true;       ///< it might touch, in this step
-    Vec3 seen_at;            ///< centre in the wall's frame when it was last found not to touch [m]
-    double gap = 0.0;        ///< it cannot touch before it and the wear have come so far from there [m]
-    double seen_wear = 0.0;  ///< the wall's odometer then [m]
-    bool owes = false;       ///< its contact owes the wall elements
-    double expected = 0.0;   ///< largest force met [N]
+    double clear = 0.0;     ///< it cannot touch before it and the wall have moved so far [m]
+    double come = 0.0;      ///< how far they have, since the rebuild [m]
+    bool awake = true;      ///< it might touch, in this step
+    contact::FreeWay way;   ///< on which it cannot touch
+    bool owes = false;      ///< its contact owes the wall elements
+    double expected = 0.0;  ///< largest force met [N]
     std::unique_ptr<SphereWall> contact;
     contact::LoadRow load;  ///< on the sphere, world frame
 

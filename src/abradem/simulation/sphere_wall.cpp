@@ -40,8 +40,8 @@ void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
   const double v_n = std::abs(dot(v, axis_));
   const Vec3 sliding = v - dot(v, axis_) * axis_;
   const double v_t = norm(sliding);
-  skin_.tangential = 0.01 * R;
-  skin_.normal = std::clamp(20.0 * v_n * dt, 0.001 * R, 0.1 * R);
+  skin_ = by_patches(wall) ? contact::CandidateSkin{0.01 * R, 0.001 * R} : skin_of_points(R);
+  skin_.normal = std::clamp(20.0 * v_n * dt, skin_.normal, 0.1 * R);
   skin_.slide = v_t > 0.0 ? sliding * (std::clamp(160.0 * v_t * dt, 0.01 * R, 0.25 * R) / v_t) : Vec3{};
   stale_ = candidates_.stale(wall.view(), c, reach_);
   // Under `patch` what is worn stays in contact over a short slide: wear ends at the contact radius a, the
@@ -88,19 +88,26 @@ void SphereWall::note_face(const Wall& wall, const Vec3& c, double R, const cont
       pair.options.adhesion > 0.0 || touches_.size() != 1 || !touches_.front().of_point ||
       touches_.front().weight != 1.0 || points_.touched().size() != 1 || owes_elements())
     return;
-  const double room = std::min(points_.room_beside(), candidates_.skin_left(c));
-  if (!(room > 0.0)) return;
+  const contact::FreeWay way = points_.free_way(candidates_.skin_left(c));
+  if (!(way.least() > 0.0)) return;
   const std::size_t t = at(touches_.front().nearest);
   face_.triangle = candidates_.triangle[t];
   face_.local = static_cast<std::int32_t>(t);
   face_.revision = wall.view().revision;
-  face_.at = c;
-  face_.room = room;
+  face_.way = way;
   face_.load = 0.999 * contact::hertz_force(pair, R, 2.0 * (candidates_.built_reach() - R));
   face_.width = contact::width_of(candidates_, t);
   face_.corner = corners_of(t);
   face_.normal = {candidates_.ax[t], candidates_.ay[t], candidates_.az[t]};
   face_.area = candidates_.area[t];
+}
+
+/// Points need few triangles, and where these are coarse a wide margin hardly adds to them: within it, the
+/// ball does not grow by more than half of one.
+contact::CandidateSkin SphereWall::skin_of_points(double R) const noexcept {
+  const double edge2 = candidates_.longest_edge2;
+  return {std::clamp(0.25 * std::sqrt(edge2), 0.01 * R, 0.1 * R),
+          std::clamp(0.125 * edge2 / R, 0.001 * R, 0.02 * R)};
 }
 
 void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
@@ -138,10 +145,10 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
   note_face(wall, c, R, pair);
 }
 
-double SphereWall::clearance(const Wall& wall) const noexcept {
+contact::FreeWay SphereWall::free_way(const Wall& wall) const noexcept {
   if (wall.is_plane() || wall.setup().contact == ContactRule::patch || !touches_.empty() || !memory_.empty())
-    return 0.0;
-  return std::min(points_.clearance(), candidates_.skin_left(centre_));
+    return {};
+  return points_.free_way(candidates_.skin_left(centre_));
 }
 
 void SphereWall::touch_patches(double R, std::span<const contact::Patch> patches) {

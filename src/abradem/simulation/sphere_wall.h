@@ -141,6 +141,8 @@ class SphereWall {
     };
     ask(touches_);
     ask(memory_);
+    if (const auto* next = reinterpret_cast<const char*>(kept_.data()); next != nullptr)
+      for (std::size_t byte = 0; byte < sizeof(Memory); byte += 64) __builtin_prefetch(next + byte, 1);
   }
 
   /// First part of the search: settles what the last candidates still owe the wall. Where they owe it
@@ -153,8 +155,8 @@ class SphereWall {
   /// run at once.
   void find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
 
-  /// After a find without contacts: how far sphere and surface must come before there can be one [m].
-  [[nodiscard]] double clearance(const Wall& wall) const noexcept;
+  /// After a find without contacts: where the sphere may go before there can be one.
+  [[nodiscard]] contact::FreeWay free_way(const Wall& wall) const noexcept;
 
   /// The wall is gone: no contacts, and none remembered.
   void let_go() noexcept {
@@ -303,14 +305,13 @@ class SphereWall {
     bool of_point = false;
   };
   /// The one triangle that a point contact lies on, of many contacts with meshes all that a step reads of
-  /// them. While the surface is the same and the sphere near `at`, the ball reaches no other triangle, the
-  /// candidates are not stale, and so a search would give the same bits.
+  /// them. While the surface is the same and the sphere on its free way, the ball reaches no other triangle,
+  /// the candidates are not stale, and so a search would give the same bits.
   struct Face {
     geometry::Index triangle = -1;  // of the mesh; -1: there is none
     std::int32_t local = 0;         // in the candidates
     std::uint64_t revision = 0;     // of the surface
-    Vec3 at;                        // the sphere's centre when it was searched for
-    double room = 0.0;              // [m]
+    contact::FreeWay way;           // past all others
     double load = 0.0;              // up to which the candidates reach far enough [N]
     double width = 0.0;             // [m]
     std::array<Vec3, 3> corner;
@@ -320,7 +321,7 @@ class SphereWall {
   [[nodiscard]] std::array<Vec3, 3> corners_of(std::size_t t) const noexcept;
   [[nodiscard]] bool stays_on_face(const Wall& wall, const Vec3& c, double load) const noexcept {
     return face_.triangle >= 0 && wall.surface().revision() == face_.revision && load <= face_.load &&
-           norm2(c - face_.at) < face_.room * face_.room;
+           face_.way.holds(c, wall.surface().odometer());
   }
   [[nodiscard]] bool touch_face(const Wall& wall, const Vec3& c, double R,
                                 const contact::PairProperties& pair);
@@ -356,6 +357,7 @@ class SphereWall {
   void touch_either(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair,
                     bool patches_first);
   [[nodiscard]] bool suit_points(std::span<const contact::PointContact> points, double R) const noexcept;
+  [[nodiscard]] contact::CandidateSkin skin_of_points(double R) const noexcept;
   [[nodiscard]] bool by_patches(const Wall& wall) const noexcept;
   Memory& recall(const Touch& touch, ContactRule rule);
   void watch_impact(Memory& memory, const Touch& touch, const Vec3& v) noexcept;
