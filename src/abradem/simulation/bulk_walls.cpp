@@ -2,6 +2,7 @@
 #include "abradem/simulation/bulk_walls.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -199,14 +200,22 @@ bool BulkWalls::compute(const contact::Spheres& spheres, const Surroundings& aro
         static thread_local SphereWall::Scratch scratch;
         wear_[part].clear();
         const std::size_t end = std::min(meshes_.size(), kPart * (part + 1));
-        for (std::size_t k = kPart * part; k < end; ++k)
-          if (meshes_[k].awake && !sleeps_on(meshes_[k], spheres.row[at(meshes_[k].sphere)], around)) {
-            if (k + 2 < end) meshes_[k + 2].contact->fetch();
-            if (k + 1 < end) meshes_[k + 1].contact->fetch_arrays();
-            if (!around.ploughs) meshes_[k].contact->lend(&scratch);
-            if (compute(k, spheres.row[at(meshes_[k].sphere)], around, wear_[part])) deep[part] = 1;
-            meshes_[k].contact->lend(nullptr);
-          }
+        std::array<std::size_t, kPart> awake{};
+        std::size_t count = 0;
+        for (std::size_t k = kPart * part; k < end; ++k) {
+          if (!meshes_[k].awake || sleeps_on(meshes_[k], spheres.row[at(meshes_[k].sphere)], around))
+            continue;
+          meshes_[k].contact->fetch();
+          awake[count++] = k;
+        }
+        if (count > 0) meshes_[awake[0]].contact->fetch_arrays();
+        for (std::size_t a = 0; a < count; ++a) {
+          const NearMesh& m = meshes_[awake[a]];
+          if (a + 1 < count) meshes_[awake[a + 1]].contact->fetch_arrays();
+          if (!around.ploughs) m.contact->lend(&scratch);
+          if (compute(awake[a], spheres.row[at(m.sphere)], around, wear_[part])) deep[part] = 1;
+          m.contact->lend(nullptr);
+        }
       },
       kWorthSharing);
   return sound && std::ranges::none_of(deep, [](std::uint8_t d) { return d != 0; });
