@@ -55,12 +55,36 @@ void Simulation::book_wear() {
   if (bulk_) book_bulk_wear();
 }
 
+/// Asks the memory for what these will be booked on, which lies here and there.
+void Simulation::fetch_elements(const WearRecords& records) {
+  for (const WearRecords::Record& r : records.record) {
+    if (r.nodal) continue;
+    const auto w = static_cast<std::size_t>(r.wall);
+    const MapLayer map = map_layer(w, r.material);
+    for (std::size_t k = r.first; k < r.end; ++k) {
+      const geometry::Index t = records.share[k].triangle;
+      walls_[w].surface().fetch(t);
+      if (map.layer != nullptr) map.layer->fetch(static_cast<std::size_t>(t));
+    }
+  }
+}
+
+void Simulation::fetch_vertices(const WearRecords& records) {
+  for (const WearRecords::Record& r : records.record)
+    for (std::size_t k = r.first; k < r.end && !r.nodal; ++k)
+      walls_[static_cast<std::size_t>(r.wall)].surface().fetch_vertices(records.share[k].triangle);
+}
+
 void Simulation::book_bulk_wear() {
   for (std::size_t w = 0; w < walls_.size(); ++w)
     if (walls_[w].is_plane()) law_[w] += by_laws_[w] != 0 ? plane_wear_by_laws(w) : plane_wear(w);
   std::vector<BulkWalls::NearMesh>& meshes = bulk_->walls().meshes();
   std::vector<double> groove(ploughs() ? meshes.size() : 0, 0.0);  // of each contact [m^3]
-  for (const WearRecords& records : bulk_->walls().wear())
+  const std::vector<WearRecords>& parts = bulk_->walls().wear();
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (part + 1 < parts.size()) fetch_vertices(parts[part + 1]);
+    if (part + 2 < parts.size()) fetch_elements(parts[part + 2]);
+    const WearRecords& records = parts[part];
     for (const WearRecords::Record& record : records.record) {
       BulkWalls::NearMesh& m = meshes[static_cast<std::size_t>(record.contact)];
       const double volume = book_contact(*m.contact, records, record);
@@ -70,6 +94,7 @@ void Simulation::book_bulk_wear() {
       else
         law_[static_cast<std::size_t>(record.wall)] += volume;
     }
+  }
   for (std::size_t k = 0; k < groove.size(); ++k) {
     const contact::SphereRow& s = bulk_->spheres().row[static_cast<std::size_t>(meshes[k].sphere)];
     if (groove[k] > 0.0 || meshes[k].contact->unpiled_volume() > 0.0)

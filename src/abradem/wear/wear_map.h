@@ -173,6 +173,12 @@ class WearMap {
     std::vector<Element> elements;
     std::vector<Spectra> regions;
 
+    /// Asks the memory for an element.
+    void fetch(std::size_t element) const noexcept {
+      const auto* from = reinterpret_cast<const char*>(&elements[element]);
+      for (std::size_t byte = 0; byte < sizeof(Element); byte += 64) __builtin_prefetch(from + byte, 1);
+    }
+
     template <typename Self, typename Archive>
     static void visit(Self& self, Archive& archive) {
       archive.fixed("elements", self.elements);

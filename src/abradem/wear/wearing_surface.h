@@ -59,6 +59,16 @@ class WearingSurface {
     add_to_vertex(v[1], at1);
     add_to_vertex(v[2], at2);
   }
+  /// Asks the memory for what a deposit writes to: first what belongs to the triangle, then, when that is
+  /// there, what belongs to its vertices.
+  void fetch(Index triangle) const noexcept {
+    __builtin_prefetch(&volume_[static_cast<std::size_t>(triangle)], 1);
+    __builtin_prefetch(&mesh_.triangles[static_cast<std::size_t>(triangle)]);
+  }
+  void fetch_vertices(Index triangle) const noexcept {
+    for (const Index v : mesh_.triangles[static_cast<std::size_t>(triangle)])
+      __builtin_prefetch(&pending_[static_cast<std::size_t>(v)], 1);
+  }
   /// The same in two parts: what falls to a vertex now, and what an element has lost, for the record only.
   void deposit_at_vertex(Index vertex, double volume) { add_to_vertex(vertex, volume); }
   void book_element(Index triangle, double volume) { volume_[static_cast<std::size_t>(triangle)] += volume; }
