@@ -155,6 +155,8 @@ class SphereWall {
   /// run at once.
   void find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
 
+  /// Was the contact of this step known to be on the triangle of the step before, without a search?
+  [[nodiscard]] bool on_face() const noexcept { return on_face_; }
   /// After a find without contacts: where the sphere may go before there can be one.
   [[nodiscard]] contact::FreeWay free_way(const Wall& wall) const noexcept;
 

@@ -156,5 +156,59 @@ TEST(PointContacts, DoNotDependOnTheOrderOfTriangles) {
   EXPECT_TRUE(std::ranges::all_of(f.per_triangle, holds));
 }
 
+/// Every triangle that the ball cuts where the free way leads is one that it cut where the way began.
+TEST(PointContacts, TheFreeWayLeadsToNoOtherTriangle) {
+  auto mesh = test::jittered_plate(12e-3, 12e-3, 1e-3, 0.25);
+  test::roughen(mesh, 20e-6, 3);
+  test::Scene scene(mesh);
+  core::RandomStream random(5);
+  const auto ball = [&](double size) {
+    return Vec3{random.uniform(-1, 1) * size, random.uniform(-1, 1) * size, random.uniform(-1, 1) * size};
+  };
+  int held = 0, further = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    PointContactFinder finder;
+    const Vec3 c = Vec3{0.0, 0.0, R} + ball(50e-6);
+    const MeshCandidates& m = scene.candidates_at(c, 1.1 * R);
+    const auto found = finder.resolved(m, c, R);
+    std::vector<std::int32_t> cut;
+    for (const PointContact& p : finder.touched()) cut.push_back(p.triangle);
+    const FreeWay way = finder.free_way(0.2e-3);
+    EXPECT_TRUE(way.holds(c, m.odometer()) || !found.empty());
+    for (int sample = 0; sample < 200; ++sample) {
+      const Vec3 p = c + ball(30e-6);
+      if (!way.holds(p, m.odometer())) continue;
+      ++held;
+      further += norm(p - c) > *std::ranges::min_element(way.gap);
+      for (std::size_t t = 0; t < m.triangle_count(); ++t) {
+        const auto corner = [&](std::int32_t v) { return m.node_position(static_cast<std::size_t>(v)); };
+        const Vec3 nearest =
+            geometry::closest_point_on_triangle(p, corner(m.v0[t]), corner(m.v1[t]), corner(m.v2[t])).point;
+        const bool known = std::ranges::find(cut, static_cast<std::int32_t>(t)) != cut.end();
+        EXPECT_TRUE(known || norm(p - nearest) >= R);
+      }
+    }
+  }
+  EXPECT_GT(held, 2000);
+  EXPECT_GT(further, 500);  // half-spaces allow more than a distance would
+}
+
+/// Wear that comes towards the sphere shortens the way by as much.
+TEST(PointContacts, TheFreeWayShrinksByTheWear) {
+  test::Scene scene(ridge(0.0));
+  PointContactFinder finder;
+  const Vec3 c{0.5e-3, 0.0, R + kDelta};
+  const MeshCandidates& m = scene.candidates_at(c, 1.1 * R);
+  ASSERT_TRUE(finder.resolved(m, c, R).empty());
+  const FreeWay way = finder.free_way(1e-3);
+  const double worn = m.odometer();
+  EXPECT_TRUE(way.holds(c, worn + 0.99 * kDelta));
+  EXPECT_FALSE(way.holds(c, worn + 1.01 * kDelta));
+  EXPECT_TRUE(way.holds(c + Vec3{0.0, 0.5e-3, -0.9 * kDelta}, worn));
+  EXPECT_FALSE(way.holds(c + Vec3{0.0, 0.5e-3, -1.1 * kDelta}, worn));
+  EXPECT_FALSE(way.holds(c + Vec3{0.0, 1.1e-3, 0.0}, worn));
+  EXPECT_NEAR(way.least(), kDelta, 1e-12);
+}
+
 }  // namespace
 }  // namespace abradem::contact
