@@ -15,42 +15,7 @@
 namespace abradem::test {
 namespace {
 
-constexpr double kRadius = 4e-3;  // of the grains [m]
-
-/// A stream that falls on a tilted plate, slides off it and is taken out.
-simulation::Setup stream(double settle, double wearing) {
-  simulation::Setup setup;
-  setup.materials = {{"ore", 2700.0, 1e7, 0.25, {}}, {"steel", 7850.0, 78e9, 0.3, {}}};
-  setup.contacts = {{"ore", "ore", 0.4, 0.5, 0.05}, {"ore", "steel", 0.4, 0.4, 0.05}};
-  setup.wear = {{.abrader = "ore", .worn = "steel", .wear_coefficient = 2e-7}};
-  WallSetup plate;
-  plate.name = "plate";
-  plate.material = "steel";
-  plate.mesh.shape = MeshShape::plate;
-  plate.mesh.length = plate.mesh.width = 60e-3;
-  plate.mesh.size = 4e-3;
-  plate.mesh.rotation = {0.0, 0.7, 0.0};
-  plate.contact = ContactRule::automatic;
-  plate.deformation = DeformationRule::conserving;
-  plate.deform_every = 20;
-  setup.walls = {plate};
-  InsertionSetup feed;
-  feed.name = "feed";
-  feed.material = "ore";
-  feed.size.radius = kRadius;
-  feed.volume.low = {-20e-3, -12e-3, 35e-3};
-  feed.volume.high = {0.0, 12e-3, 55e-3};
-  feed.velocity = {0.0, 0.0, -1.0};
-  feed.mass = 1000.0;
-  feed.mass_rate = 0.5;
-  setup.insertions = {feed};
-  setup.domain = DomainSetup{.low = {-60e-3, -60e-3, -60e-3}, .high = {60e-3, 60e-3, 60e-3}};
-  setup.run.gravity = {0.0, 0.0, -9.81};
-  setup.run.settle = {settle, false};
-  setup.run.end = {settle + wearing, false};
-  setup.run.seed = 3;
-  return setup;
-}
+constexpr double kRadius = kStreamRadius;
 
 /// What a run wore in each of its outputs, and the depths at its end.
 struct Worn {
@@ -107,8 +72,8 @@ double sum(const std::vector<double>& v) {
 /// the noise of the flow, which batches of 0.1 s measure.
 TEST(BulkAcceleration, OfASteadyStreamIsTheWholeTestWithinTheNoise) {
   constexpr double kSettle = 0.2, kTest = 3.2;
-  const Worn all = worn(stream(kSettle, kTest), 32);
-  const Worn quarter = worn(study::accelerated(stream(kSettle, kTest), 4.0), 8);
+  const Worn all = worn(stream_on_plate(kSettle, kTest), 32);
+  const Worn quarter = worn(study::accelerated(stream_on_plate(kSettle, kTest), 4.0), 8);
   for (const Worn* w : {&all, &quarter}) {
     EXPECT_LT(w->ledger.residual, 1e-9);
     EXPECT_NEAR(w->ledger.kappa, 1.0, 1e-9);
@@ -192,7 +157,7 @@ TEST(BulkAcceleration, OfABodyHeldOnABeltIsArchards) {
 /// What the program accepts, against the error itself: the whole test modelled.
 TEST(BulkAcceleration, ChosenKeepsToItsTolerance) {
   constexpr double kTolerance = 0.3;
-  simulation::Setup setup = stream(0.2, 3.2);
+  simulation::Setup setup = stream_on_plate(0.2, 3.2);
   setup.wear[0].acceleration.automatic = true;
   setup.wear[0].tolerance = kTolerance;
   const OneThread one;

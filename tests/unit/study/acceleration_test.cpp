@@ -6,6 +6,7 @@
 #include "abradem/core/error.h"
 #include "abradem/study/trial.h"
 #include "support/cases.h"
+#include "support/grains.h"
 #include "support/says.h"
 #include "support/state.h"
 
@@ -117,39 +118,12 @@ TEST(Acceleration, ThatCannotBeIsRefused) {
   EXPECT_THROW((void)study::choose_acceleration(setup), InputError);
 }
 
-/// One grain that slides down a tilted plate, again and again with every grain that follows.
-simulation::Setup sliding_grains() {
-  simulation::Setup s;
-  s.materials = {{"ore", 2700.0, 1e7, 0.25, {}}, {"steel", 7850.0, 78e9, 0.3, {}}};
-  s.contacts = {{"ore", "ore", 0.4, 0.5, 0.0}, {"ore", "steel", 0.4, 0.3, 0.0}};
-  s.wear = {{.abrader = "ore", .worn = "steel", .wear_coefficient = 1e-9}};
-  s.wear[0].acceleration.automatic = true;
-  simulation::WallSetup plate;
-  plate.name = "plate";
-  plate.material = "steel";
-  plate.mesh.shape = simulation::MeshShape::plate;
-  plate.mesh.length = plate.mesh.width = 60e-3;
-  plate.mesh.size = 8e-3;
-  plate.mesh.rotation = {0.0, 0.7, 0.0};
-  plate.contact = simulation::ContactRule::automatic;
-  plate.deformation = simulation::DeformationRule::conserving;
-  s.walls = {plate};
-  simulation::InsertionSetup feed;
-  feed.name = "feed";
-  feed.material = "ore";
-  feed.size.radius = 4e-3;
-  feed.volume.low = {-15e-3, -8e-3, 25e-3};
-  feed.volume.high = {-5e-3, 8e-3, 35e-3};
-  feed.velocity = {0.0, 0.0, -1.0};
-  feed.mass = 100.0;
-  feed.mass_rate = 0.2;
-  s.insertions = {feed};
-  s.domain = simulation::DomainSetup{.low = {-50e-3, -50e-3, -50e-3}, .high = {50e-3, 50e-3, 50e-3}};
-  s.run.gravity = {0.0, 0.0, -9.81};
-  s.run.settle = {0.1, false};
-  s.run.end = {0.1 + 0.8, false};
-  s.output.every = {0.1, false};
-  return s;
+/// A tenth of a second to settle, eight tenths of wear.
+simulation::Setup stream_to_accelerate() {
+  simulation::Setup setup = stream_on_plate(0.1, 0.8);
+  setup.wear[0].acceleration.automatic = true;
+  setup.output.every = {0.1, false};
+  return setup;
 }
 
 template <typename F>
@@ -163,7 +137,7 @@ std::string refusal(const F& refused) {
 }
 
 TEST(Settling, WearsNothingAndIsNotAccelerated) {
-  simulation::Setup setup = study::accelerated(sliding_grains(), 16.0);
+  simulation::Setup setup = study::accelerated(stream_to_accelerate(), 16.0);
   setup.run.end = {0.1 + 16.0 * 0.05, false};
   setup.output.every = {0.4, false};
   simulation::Simulation run(setup);
@@ -192,7 +166,7 @@ TEST(Settling, WearsNothingAndIsNotAccelerated) {
 }
 
 TEST(Settling, HasItsOwnOutputs) {
-  simulation::Setup setup = study::accelerated(sliding_grains(), 1.0);
+  simulation::Setup setup = study::accelerated(stream_to_accelerate(), 1.0);
   setup.run.end = {0.15, false};
   setup.output.every = {0.04, false};
   simulation::Simulation run(setup);
@@ -205,7 +179,7 @@ TEST(Settling, HasItsOwnOutputs) {
 
 /// Without wear in the settling time the flow is the same: the same grains at the same places.
 TEST(Settling, DoesNotChangeTheFlow) {
-  simulation::Setup setup = study::accelerated(sliding_grains(), 1.0);
+  simulation::Setup setup = study::accelerated(stream_to_accelerate(), 1.0);
   setup.wear[0].wear_coefficient = 0.0;
   setup.run.end = {0.2, false};
   simulation::Simulation settled(setup);
@@ -218,7 +192,7 @@ TEST(Settling, DoesNotChangeTheFlow) {
 }
 
 TEST(Settling, GoesOnToTheSameBitsFromAnywhere) {
-  simulation::Setup setup = study::accelerated(sliding_grains(), 16.0);
+  simulation::Setup setup = study::accelerated(stream_to_accelerate(), 16.0);
   setup.output.every = {0.02, false};
   const simulation::Simulation run(setup);
   const auto settles = static_cast<std::uint64_t>(0.1 / run.time_step());
@@ -227,7 +201,7 @@ TEST(Settling, GoesOnToTheSameBitsFromAnywhere) {
 }
 
 TEST(Settling, MustEndBeforeTheRun) {
-  simulation::Setup setup = study::accelerated(sliding_grains(), 2.0);
+  simulation::Setup setup = study::accelerated(stream_to_accelerate(), 2.0);
   setup.run.settle = setup.run.end;
   EXPECT_TRUE(contains(refusal([&] { (void)simulation::Simulation(setup); }), "before the run's end"));
   setup.run.settle = {-0.1, false};
@@ -241,7 +215,7 @@ TEST(Settling, MustEndBeforeTheRun) {
 }
 
 TEST(Acceleration, OfManyParticlesComparesMaps) {
-  simulation::Setup setup = sliding_grains();
+  simulation::Setup setup = stream_to_accelerate();
   setup.wear[0].tolerance = 10.0;
   std::size_t looks = 0;
   const AccelerationChoice choice = study::choose_acceleration(
@@ -259,7 +233,7 @@ TEST(Acceleration, OfManyParticlesComparesMaps) {
 /// A grain on a tray that shakes: cycles are counted, from four of them on, and no time to settle is asked
 /// for.
 TEST(Acceleration, OfManyParticlesOnWhatOscillatesCountsCycles) {
-  simulation::Setup setup = sliding_grains();
+  simulation::Setup setup = stream_to_accelerate();
   simulation::WallSetup& tray = setup.walls[0];
   tray.mesh.rotation = {};
   tray.motion.kind = simulation::MotionKind::oscillation;
@@ -284,7 +258,7 @@ TEST(Acceleration, OfManyParticlesOnWhatOscillatesCountsCycles) {
 }
 
 TEST(Acceleration, OfManyParticlesWhereToleranceIsNeverMetIsNone) {
-  simulation::Setup setup = sliding_grains();
+  simulation::Setup setup = stream_to_accelerate();
   setup.wear[0].tolerance = 1e-6;
   const AccelerationChoice choice = study::choose_acceleration(setup);
   EXPECT_EQ(choice.factor, 1.0);
@@ -295,7 +269,7 @@ TEST(Acceleration, OfManyParticlesWhereToleranceIsNeverMetIsNone) {
 
 /// So much wear in a step that the mesh turns over: it counts as different, and says why.
 TEST(Acceleration, OfManyParticlesThatGoesUnphysicalCountsAsDifferent) {
-  simulation::Setup setup = sliding_grains();
+  simulation::Setup setup = stream_to_accelerate();
   setup.wear[0].wear_coefficient = 1e-3;
   setup.wear[0].tolerance = 10.0;
   const AccelerationChoice choice = study::choose_acceleration(setup);
@@ -306,14 +280,14 @@ TEST(Acceleration, OfManyParticlesThatGoesUnphysicalCountsAsDifferent) {
 }
 
 TEST(Acceleration, OfManyParticlesOnWhatDoesNotWearIsSaidToBe) {
-  simulation::Setup setup = sliding_grains();
+  simulation::Setup setup = stream_to_accelerate();
   setup.wear[0].wear_coefficient = 0.0;
   const AccelerationChoice choice = study::choose_acceleration(setup);
   EXPECT_EQ(choice.factor, 1.0);
   EXPECT_EQ(choice.trials.at(0).failure, "nothing was worn");
   setup.run.settle = {};
   EXPECT_TRUE(contains(refusal([&] { (void)study::choose_acceleration(setup); }), "give run.settle"));
-  setup = sliding_grains();
+  setup = stream_to_accelerate();
   setup.walls[0].deformation = simulation::DeformationRule::none;
   EXPECT_TRUE(
       contains(refusal([&] { (void)study::choose_acceleration(setup); }), "no wall changes its shape"));
