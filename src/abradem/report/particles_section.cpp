@@ -61,13 +61,15 @@ Figure numbers(const Table& table) {
 }
 
 Figure flow(const Table& table) {
-  Figure figure{.id = "mass-flow",
-                .title = "Mass that left",
-                .caption = "Particles whose centre left the domain; the rate is that between two outputs." +
-                           std::string(accelerated(table) ? " Masses and rates are those of the modelled "
-                                                            "time, which the wear accelerates."
-                                                          : ""),
-                .columns = 2};
+  Figure figure{
+      .id = "mass-flow",
+      .title = "Mass that left",
+      .caption =
+          std::string("Particles whose centre left the domain; the rate is that between two outputs.") +
+          (accelerated(table) ? " Both are of the flow as it was modelled: the wear alone is "
+                                "accelerated."
+                              : ""),
+      .columns = 2};
   Panel mass{.title = "Mass", .x = kTime, .y = {.title = "mass [kg]"}};
   mass.series = {against_time(table, "mass_kg", "in the run", 0),
                  against_time(table, "removed_mass_kg", "taken out", 1)};
