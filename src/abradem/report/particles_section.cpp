@@ -26,15 +26,19 @@ Series against_time(const Table& table, std::string_view column, std::string nam
           .colour = colour};
 }
 
-/// Where the wear is accelerated, the time that the flow took.
 bool accelerated(const Table& table) {
   return std::ranges::find(table.names, kModelled) != table.names.end();
 }
 
+/// The time that the flow took: less than the test's where its wear is accelerated.
+const std::vector<double>& flow_time(const Table& table) {
+  return table[accelerated(table) ? kModelled : "time_s"];
+}
+
 /// What leaves per second between two rows, at the middle of them.
 Series mass_flow(const Table& table) {
-  const std::vector<double>&time = table["time_s"], &mass = table["removed_mass_kg"];
-  const std::vector<double>& flowed = accelerated(table) ? table[kModelled] : time;
+  const std::vector<double>&time = table["time_s"], &flowed = flow_time(table),
+        &mass = table["removed_mass_kg"];
   Series flow{.kind = Kind::line, .colour = 1};
   for (std::size_t r = 1; r < table.rows(); ++r) {
     if (!(flowed[r] > flowed[r - 1])) continue;
