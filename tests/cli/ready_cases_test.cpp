@@ -50,6 +50,10 @@ INSTANTIATE_TEST_SUITE_P(
         ReadyCase{"hopper",
                   "--set insertion.fill.number=300 --set run.end='50 ms' --set wall.gate.until='40 ms'"},
         ReadyCase{"transfer-chute", "--set run.end='0.14 s'", true},
+        ReadyCase{"liner-life",
+                  "--set run.settle='0.13 s' --set run.end='1 h' --set output.every='0.5 h' --set "
+                  "'wear.\"ore/steel\".acceleration=1e5'",
+                  true},
         ReadyCase{"rotating-drum",
                   "--set insertion.charge.number=60 --set run.end='0.07 rev' --set output.every='0.01 rev'",
                   true},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole runs through the real program: what comes out, what bad input gets, what is left when something ends
 // a run early. The meshes are as small as they can be.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -137,6 +138,57 @@ TEST(WholeRun, ChoosesTheAccelerationAndSaysWhatItCost) {
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(manifest(folder.path() / "again")["state_hash"], record["state_hash"]);
   EXPECT_DOUBLE_EQ(manifest(folder.path() / "again")["acceleration"]["factor"].get<double>(), factor);
+}
+
+/// Seconds chosen for hours: the log, run.json, the tables and the report agree on the time of the test.
+TEST(WholeRun, ChoosesTheAccelerationOfManyParticles) {
+  const ScratchFolder folder;
+  const std::string chute = "run " ABRADEM_SOURCE_DIR
+                            "/cases/liner-life.toml --threads 1 --set run.settle='0.2 s' --set run.end='2 h'"
+                            " --set output.every='1 h' --set output.frames=ends";
+  const Outcome chosen =
+      run_program(chute + " --set 'wear.\"ore/steel\".tolerance=90 %' -o auto", folder.path());
+  ASSERT_EQ(chosen.exit_code, 0) << chosen.err;
+  for (const char* part : {"acceleration: 0.4 s, depths differ by", "the flow settles for 0.2 s",
+                           "error accepted", "of the depths"})
+    EXPECT_TRUE(contains(chosen.err, part)) << part << "\n" << chosen.err;
+  const json record = manifest(folder.path() / "auto");
+  const json& acceleration = record["acceleration"];
+  const double factor = acceleration["factor"], modelled = acceleration["modelled_s"];
+  EXPECT_DOUBLE_EQ(modelled, 0.4);
+  EXPECT_NEAR(factor * modelled, 7200.0 - 0.2, 1e-9);
+  EXPECT_LT(acceleration["map_error"].get<double>(), 0.9);
+  for (const char* key : {"difference", "volume_difference", "noise"})
+    EXPECT_GT(acceleration["trials"][0][key].get<double>(), 0.0) << key;
+  EXPECT_EQ(record["settle_s"], 0.2);
+  EXPECT_NEAR(record["results"]["time_s"].get<double>(), 7200.0, 1.0);
+  EXPECT_EQ(table(folder.path() / "auto", "revolutions").column("law_volume_mm3")[0], 0.0);  // it has settled
+  const io::CsvTable particles = table(folder.path() / "auto", "particles");
+  EXPECT_NEAR(particles.column("time_s").back(), 7200.0, 1.0);
+  EXPECT_NEAR(particles.column("modelled_time_s").back(), 0.6, 1e-3);
+  // The rate of the test: depth over its two hours, of which the settling is next to nothing.
+  const std::string places = read_file(folder.path() / "auto" / "tables" / "wear-places.csv");
+  EXPECT_TRUE(contains(places, "worn through after [h]")) << places;
+  const io::CsvTable wear = table(folder.path() / "auto", "wear");
+  const double deepest_mm = 1e-3 * std::ranges::max(wear.column("wear_depth_um"));
+  EXPECT_TRUE(contains(places, fmt::format(",{:.4g},", deepest_mm / 2.0))) << deepest_mm << "\n" << places;
+
+  const Outcome again =
+      run_program("run auto/case.resolved.toml --threads 1 --no-report -o again", folder.path());
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(manifest(folder.path() / "again")["state_hash"], record["state_hash"]);
+}
+
+TEST(WholeRun, WarnsOfAStreamThatDriesUpBeforeTheTestEnds) {
+  const ScratchFolder folder;
+  const Outcome outcome = run_program(
+      "run " ABRADEM_SOURCE_DIR
+      "/cases/liner-life.toml --threads 1 --no-report -o out --set run.settle='0.1 s' --set run.end='1 h' "
+      "--set "
+      "output.every='1 h' --set 'wear.\"ore/steel\".acceleration=1e5' --set insertion.feed.mass='0.1 kg'",
+      folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "the wear is that of a stream that dries up")) << outcome.err;
 }
 
 TEST(WholeRun, WritesTheFramesThatAreAskedFor) {

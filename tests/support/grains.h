@@ -135,6 +135,44 @@ inline simulation::Setup tray() {
   return setup;
 }
 
+constexpr double kStreamRadius = 4e-3;
+
+/// A stream that falls on a tilted plate, slides off it, wears it and is taken out.
+/// @param settle until nothing wears   @param wearing how long the test goes on then [s]
+inline simulation::Setup stream_on_plate(double settle, double wearing) {
+  simulation::Setup setup;
+  setup.materials = {{"ore", 2700.0, 1e7, 0.25, {}}, {"steel", 7850.0, 78e9, 0.3, {}}};
+  setup.contacts = {{"ore", "ore", 0.4, 0.5, 0.05}, {"ore", "steel", 0.4, 0.4, 0.05}};
+  setup.wear = {{.abrader = "ore", .worn = "steel", .wear_coefficient = 2e-7}};
+  WallSetup plate;
+  plate.name = "plate";
+  plate.material = "steel";
+  plate.mesh.shape = MeshShape::plate;
+  plate.mesh.length = plate.mesh.width = 60e-3;
+  plate.mesh.size = 4e-3;
+  plate.mesh.rotation = {0.0, 0.7, 0.0};
+  plate.contact = ContactRule::automatic;
+  plate.deformation = DeformationRule::conserving;
+  plate.deform_every = 20;
+  setup.walls = {plate};
+  InsertionSetup feed;
+  feed.name = "feed";
+  feed.material = "ore";
+  feed.size.radius = kStreamRadius;
+  feed.volume.low = {-20e-3, -12e-3, 35e-3};
+  feed.volume.high = {0.0, 12e-3, 55e-3};
+  feed.velocity = {0.0, 0.0, -1.0};
+  feed.mass = 1000.0;
+  feed.mass_rate = 0.5;
+  setup.insertions = {feed};
+  setup.domain = DomainSetup{.low = {-60e-3, -60e-3, -60e-3}, .high = {60e-3, 60e-3, 60e-3}};
+  setup.run.gravity = {0.0, 0.0, -9.81};
+  setup.run.settle = {settle, false};
+  setup.run.end = {settle + wearing, false};
+  setup.run.seed = 3;
+  return setup;
+}
+
 constexpr double kBedRadius = 3e-3, kBedSide = 16 * 2.06 * kBedRadius;
 
 /// A box with 4096 grains of kBedRadius on a lattice, `stretch` times as high, about to fall on its floor.

@@ -87,11 +87,12 @@ std::string Progress::state(const simulation::Simulation& run) const {
   const double elapsed = seconds_between(start_, Clock::now());
   const auto steps = static_cast<double>(run.steps()), total = static_cast<double>(run.total_steps());
   const double left = steps > 0.0 ? elapsed * (total - steps) / steps : 0.0;
-  const std::string where = run.turns() ? fmt::format("{} {:.2f}", io::counted(run.setup()), run.revolution())
-                                        : fmt::format("{:.4g} s", run.test_time());
+  std::string where = run.turns() ? fmt::format("{} {:.2f}", io::counted(run.setup()), run.revolution())
+                                  : fmt::format("{:.4g} s", run.test_time());
+  if (run.settling()) where += ", settling";
   const double planes = run.plane_volume();
-  return fmt::format("{}  {:.0f} %  {} steps/s  wear {:.4g} mm^3{}  {} left", where, 100.0 * steps / total,
-                     grouped(steps / std::max(elapsed, 1e-9)), 1e9 * run.law_volume(),
+  return fmt::format("{}{}  {:.0f} %  {} steps/s  wear {:.4g} mm^3{}  {} left", what_, where,
+                     100.0 * steps / total, grouped(steps / std::max(elapsed, 1e-9)), 1e9 * run.law_volume(),
                      planes > 0.0 ? fmt::format(" (and {:.4g} on planes)", 1e9 * planes) : "",
                      clock_time(left));
 }

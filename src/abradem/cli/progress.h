@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "abradem/io/run_record.h"
 #include "abradem/io/run_recorder.h"
@@ -48,7 +49,8 @@ class RunLog {
 /// Speed, wear so far and time left: a changing line on a terminal, a plain line now and then elsewhere.
 class Progress {
  public:
-  explicit Progress(RunLog& log) : log_(log) {}
+  /// @param what the run is for; empty: it is the run itself
+  explicit Progress(RunLog& log, std::string what = {}) : log_(log), what_(std::move(what)) {}
   void update(const simulation::Simulation& run);
   /// A line per output.
   void output(const simulation::Simulation& run, const io::RunRecorder& recorder);
@@ -57,6 +59,7 @@ class Progress {
  private:
   [[nodiscard]] std::string state(const simulation::Simulation& run) const;
   RunLog& log_;
+  std::string what_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), shown_ = start_;
 };
 

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <string_view>
 #include <tuple>
 
@@ -106,7 +107,7 @@ Setup changed(const Setup& before, const RewearArguments& a, const fs::path& fil
   Setup same = after;
   same.wear = before.wear;
   const auto how_run = [](const Setup& s) {
-    std::vector<std::tuple<std::string, double, double>> pairs;
+    std::vector<std::tuple<std::string, double, std::optional<double>>> pairs;
     for (const WearSetup& w : s.wear) pairs.emplace_back(pair_of(w), w.acceleration.factor, w.tolerance);
     return pairs;
   };

@@ -38,6 +38,10 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+double modelled_end(const Simulation& run) {
+  return static_cast<double>(run.total_steps()) * run.time_step();
+}
+
 void announce(const Simulation& run, RunLog& log) {
   for (const simulation::Wall& wall : run.walls())
     if (!wall.is_plane())
@@ -50,6 +54,12 @@ void announce(const Simulation& run, RunLog& log) {
     log.line(fmt::format("{} particles in numbers at the start", run.bulk_state().present));
   log.line(fmt::format("{} steps of {:.4g} s, {} per output", run.total_steps(), run.time_step(),
                        run.steps_per_output()));
+  if (run.settle_time() > 0.0)
+    log.line(fmt::format("the flow settles for {:.4g} s, in which nothing wears", run.settle_time()));
+  if (run.acceleration() > 1.0)
+    log.line(fmt::format("{:.4g} s are modelled{}, each for {:.4g} s of the test",
+                         modelled_end(run) - run.settle_time(), run.settle_time() > 0.0 ? " then" : "",
+                         run.acceleration()));
 }
 
 void report_limits(const std::vector<simulation::StabilityLimit>& limits, RunLog& log,
@@ -140,6 +150,22 @@ std::string coarse_groove(const Simulation& run, const analysis::RevolutionRow& 
       row.width_mean / edge, kEnough, run.walls()[*wall].setup().name, kAdvised);
 }
 
+/// Streams that dry up while each second stands for many.
+void warn_of_dry_streams(const Simulation& run, io::RunRecord& record, RunLog& log) {
+  if (!(run.acceleration() > 1.0) || !run.bulk()) return;
+  for (const simulation::Inserter& inserter : run.bulk()->inserters()) {
+    const simulation::InsertionSetup& i = inserter.setup();
+    if (!i.mass_rate || !i.mass) continue;
+    const double until = i.start + *i.mass / *i.mass_rate;
+    if (until >= modelled_end(run)) continue;
+    record.warnings.push_back(
+        fmt::format("insertion '{}' ends after {:.4g} s, and {:.4g} s are modelled, each for {:.4g} s of the "
+                    "test: the wear is that of a stream that dries up. Give it more mass",
+                    i.name, until, modelled_end(run), run.acceleration()));
+    log.warning(record.warnings.back());
+  }
+}
+
 void complete_record(io::RunRecord& record, const Simulation& run, const io::RunRecorder& recorder,
                      RunLog& log) {
   record.steps = run.steps();
@@ -197,24 +223,57 @@ void try_to_record_failure(io::RunRecord& record, const fs::path& folder, const 
   }
 }
 
-/// Finds how many revolutions stand for those of the test, and says so.
+/// A length of what is modelled.
+std::string_view unit_of(const study::AccelerationChoice& choice) {
+  return choice.in_revolutions ? "revolutions" : "s";
+}
+std::string modelled(double length, const study::AccelerationChoice& choice) {
+  return fmt::format("{:.4g} {}", length, unit_of(choice));
+}
+
+/// A comparison of two trials as a line of the log.
+std::string trial_text(const study::AccelerationTrial& trial, const study::AccelerationChoice& choice) {
+  const std::string fine = modelled(trial.modelled, choice), coarse = modelled(0.5 * trial.modelled, choice);
+  if (!trial.difference)
+    return fmt::format("acceleration: {} cannot be compared with {}: {}", fine, coarse, trial.failure);
+  if (!choice.by_maps)
+    return fmt::format("acceleration: {}, profile differs by {:.3g} % from {}", fine,
+                       100.0 * *trial.difference, coarse);
+  std::string text = fmt::format(
+      "acceleration: {}, depths differ by {:.3g} % from {}, the volume by {:.2g} %: {}", fine,
+      100.0 * *trial.difference, coarse, 100.0 * trial.volume_difference, study::what_limits(trial));
+  if (*trial.difference >= choice.tolerance)
+    text += fmt::format(". {:.2g} % will take about {:.2g} {}", 100.0 * choice.tolerance,
+                        study::length_for(trial, choice.tolerance), unit_of(choice));
+  return text;
+}
+
+/// Finds how many revolutions or seconds stand for those of the test, and says so.
 study::AccelerationChoice choose_acceleration(const simulation::Setup& setup, RunLog& log) {
+  std::optional<Progress> progress;
+  std::uint64_t steps = 0;
+  const auto watch = [&](const Simulation& trial) {
+    if (!progress || trial.steps() < steps) progress.emplace(log, "trial: ");
+    steps = trial.steps();
+    progress->update(trial);
+    return !StopSignals::requested();
+  };
   study::AccelerationChoice choice = study::choose_acceleration(
-      setup, MeshLoader(setup), [] { return !StopSignals::requested(); },
-      [&](const study::AccelerationTrial& trial) {
-        log.line(trial.difference
-                     ? fmt::format("acceleration: {:g} revolutions, profile differs by {:.3g} % from {:g}",
-                                   trial.revolutions, 100.0 * *trial.difference, 0.5 * trial.revolutions)
-                     : fmt::format("acceleration: {:g} revolutions cannot be told from {:g}, which went "
-                                   "unphysical",
-                                   trial.revolutions, 0.5 * trial.revolutions));
+      setup, MeshLoader(setup), watch,
+      [&](const study::AccelerationTrial& trial, const study::AccelerationChoice& so_far) {
+        log.line(trial_text(trial, so_far));
       });
-  log.line(choice.factor > 1.0
-               ? fmt::format("acceleration: {:g} revolutions, each for {:.4g} of the test; error accepted "
-                             "{:.2g} % of the profile, tolerance {:.2g} %",
-                             choice.revolutions, choice.factor, 100.0 * choice.error,
-                             100.0 * choice.tolerance)
-               : std::string("acceleration: none keeps to the tolerance; every revolution is modelled"));
+  if (choice.factor > 1.0)
+    log.line(
+        fmt::format("acceleration: {}, each for {:.4g} of the test; error accepted {:.2g} % of the {}, "
+                    "tolerance {:.2g} %",
+                    modelled(choice.modelled, choice), choice.factor, 100.0 * choice.error,
+                    choice.by_maps ? "depths" : "profile", 100.0 * choice.tolerance));
+  else
+    log.line(
+        fmt::format("acceleration: {}; all of the test, {}, is modelled",
+                    choice.trials.empty() ? "the test is too short for one" : "none keeps to the tolerance",
+                    modelled(choice.modelled, choice)));
   return choice;
 }
 
@@ -225,6 +284,7 @@ int carry_out(Simulation& run, io::RunRecorder& recorder, RunLog& log, const Car
   record.threads = omp_get_max_threads();
   std::string json;
   try {
+    warn_of_dry_streams(run, record, log);
     Checkpoints checkpoints(how.folder, run, recorder, record, log, inputs_of(run, how.resolved_text));
     run_steps(run, recorder, checkpoints, log, record);
     recorder.close();

@@ -76,6 +76,9 @@ std::string summarize(const Setup& setup) {
   out += fmt::format("  run: {} {}, {}", core::format_number(end.value),
                      end.in_revolutions ? unit_of_counting(setup) : "s",
                      setup.run.method == Method::dynamic ? "dynamic" : "quasi-static");
+  if (const Duration& settle = setup.run.settle; settle.value > 0.0)
+    out += fmt::format(", {} {} to settle", core::format_number(settle.value),
+                       settle.in_revolutions ? unit_of_counting(setup) : "s");
   if (setup.study) {
     const std::size_t runs = study::plan(*setup.study).size();
     out += fmt::format("\n  study: {} run{} in {} variation{}:", runs, runs == 1 ? "" : "s",

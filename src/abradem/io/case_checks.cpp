@@ -121,6 +121,11 @@ void Checker::check_run() {
       "\"24 s\"";
   if (!turns && setup_.run.end.in_revolutions && good("run.end"))
     error("run.end", std::string(kNothingTurns));
+  const Duration& settle = setup_.run.settle;
+  if (!turns && settle.in_revolutions && good("run.settle")) error("run.settle", std::string(kNothingTurns));
+  if (settle.value > 0.0 && settle.in_revolutions == setup_.run.end.in_revolutions && good("run.settle") &&
+      good("run.end") && settle.value >= setup_.run.end.value)
+    error("run.settle", "the flow settles before anything wears: must be before run.end");
   if (!turns && setup_.output.every.in_revolutions && places_.given("output.every") && good("output.every"))
     error("output.every", std::string(kNothingTurns));
   if (setup_.run.end.in_revolutions == setup_.output.every.in_revolutions && good("run.end") &&

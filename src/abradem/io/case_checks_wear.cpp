@@ -154,10 +154,20 @@ void Checker::check_acceleration() {
                                              "another: one acceleration is chosen for the run",
                                              path_of("wear", first.abrader + "/" + first.worn)));
     if (!w.acceleration.automatic && w.acceleration.factor == 1.0) continue;
-    if (!counts_revolutions(setup_) && good("wall"))
+    if (counts_revolutions(setup_) || !good("wall") || !good("insertion") || !good("run.settle")) continue;
+    if (setup_.insertions.empty())
       error(path + ".acceleration",
-            "acceleration leaves out revolutions, but no wall has a motion of kind rotation or "
-            "oscillation");
+            "acceleration leaves out revolutions, but no wall has a motion of kind rotation or oscillation; "
+            "where nothing turns it is for particles in numbers, which flow steadily");
+    else if (setup_.run.settle.value == 0.0 && w.acceleration.automatic)
+      error(path + ".acceleration",
+            "\"auto\" first models as long as the flow takes to settle: give [run] settle, such as settle = "
+            "\"0.4 s\"");
+    else if (setup_.run.settle.value == 0.0)
+      note(path + ".acceleration",
+           fmt::format("every modelled second stands for {:g} of the test from the start, while the flow "
+                       "fills too; [run] settle says when it is steady",
+                       w.acceleration.factor));
   }
 }
 

@@ -323,17 +323,22 @@ const std::array kRows{
         .slot = ABRADEM_SLOT(wear->acceleration),
         .limits = {.low = 1.0},
         .example = "108.5",
-        .doc = "Revolutions of the test that one modelled revolution stands for: its wear counts so many "
-               "times. end, every and the tables count those of the test. auto chooses the number by "
-               "comparing runs of n and 2 n revolutions."},
+        .doc =
+            "Seconds (revolutions) of the test that a modelled one stands for once run.settle is over: its "
+            "wear counts so many times. end, every and the tables count those of the test; flows, motions "
+            "and insertions are modelled as they are. auto chooses the number by comparing runs of n and "
+            "2 n revolutions, or, of particles in numbers where nothing turns, seconds."},
     Row{.section = "wear.*",
         .key = "tolerance",
-        .need = Need::has_default,
+        .need = Need::optional,
         .slot = ABRADEM_SLOT(wear->tolerance),
         .unit = "%",
         .limits = kPositive,
+        .default_note = "\"1 %\"; \"10 %\" where particles come in numbers",
         .example = "\"1 %\"",
-        .doc = "Of acceleration = \"auto\": difference allowed between the mean profiles, relative L2."},
+        .doc =
+            "Of acceleration = \"auto\": difference allowed between the mean profiles of the groove, or, of "
+            "particles in numbers, the maps of depths, relative L2."},
 
     Row{.section = "ploughing",
         .key = "removed_fraction",

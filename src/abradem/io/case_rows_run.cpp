@@ -25,7 +25,18 @@ const std::array kRows{
         .limits = kPositive,
         .example = "\"12 rev\"",
         .doc =
-            "Length of the run: a time, or revolutions (cycles) of the first wall that turns (oscillates)."},
+            "Length of the test: a time, or revolutions (cycles) of the first wall that turns (oscillates). "
+            "With an acceleration of the wear less is modelled."},
+    Row{.section = "run",
+        .key = "settle",
+        .kind = Kind::duration,
+        .need = Need::has_default,
+        .slot = ABRADEM_SLOT(setup->run.settle),
+        .limits = kNotNegative,
+        .example = "\"0.4 s\"",
+        .doc =
+            "Time (revolutions) at the start in which nothing wears: the flow fills and becomes steady. An "
+            "acceleration of the wear begins where it ends."},
     Row{.section = "run",
         .key = "method",
         .kind = Kind::choice,

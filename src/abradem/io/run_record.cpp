@@ -109,30 +109,43 @@ double acceleration_of(const simulation::Setup& setup) {
   return setup.wear.empty() ? 1.0 : setup.wear.front().acceleration.factor;
 }
 
-/// Number of revolutions modelled for those of the test, and how it was chosen.
+/// Number of revolutions or seconds modelled for those of the test, and how it was chosen.
 Json acceleration_json(const RunRecord& record, double factor) {
   Json json = {{"factor", factor}};
   if (record.acceleration) {
     const study::AccelerationChoice& choice = *record.acceleration;
     json["chosen"] = "auto";
-    json["modelled_revolutions"] = choice.revolutions;
+    json[choice.in_revolutions ? "modelled_revolutions" : "modelled_s"] = choice.modelled;
     json["tolerance"] = choice.tolerance;
-    json["profile_error"] = choice.error;
+    json[choice.by_maps ? "map_error" : "profile_error"] = choice.error;
     json["trials"] = Json::array();
-    for (const study::AccelerationTrial& trial : choice.trials)
-      json["trials"].push_back(
-          {{"revolutions", trial.revolutions},
-           {"difference", trial.difference ? number(*trial.difference) : Json(nullptr)}});
+    for (const study::AccelerationTrial& trial : choice.trials) {
+      Json entry = {{choice.in_revolutions ? "revolutions" : "modelled_s", trial.modelled},
+                    {"difference", trial.difference ? number(*trial.difference) : Json(nullptr)}};
+      if (choice.by_maps && trial.difference)
+        entry.update({{"volume_difference", number(trial.volume_difference)},
+                      {"noise", number(trial.noise)},
+                      {"limited_by", trial.noise_limits() ? "noise" : "steps"}});
+      if (!trial.failure.empty()) entry["failure"] = trial.failure;
+      json["trials"].push_back(std::move(entry));
+    }
   }
   return json;
 }
 
 /// What the report shows of it.
-std::string acceleration_text(const RunRecord& record, double factor) {
-  std::string text = fmt::format("{:.4g} revolutions of the test per modelled one", factor);
-  if (record.acceleration)
-    text += fmt::format("; chosen: half as many change the profile by {:.2g} %, tolerance {:.2g} %",
-                        100.0 * record.acceleration->error, 100.0 * record.acceleration->tolerance);
+std::string acceleration_text(const RunRecord& record, const simulation::Setup& setup, double factor) {
+  std::string text = fmt::format("{:.4g} {} of the test per modelled one", factor,
+                                 simulation::period_of(setup.walls) > 0.0 ? "revolutions" : "seconds");
+  if (record.acceleration) {
+    const study::AccelerationChoice& choice = *record.acceleration;
+    text += fmt::format("; chosen: half as many change the {} by {:.2g} %, tolerance {:.2g} %",
+                        choice.by_maps ? "map of depths" : "profile", 100.0 * choice.error,
+                        100.0 * choice.tolerance);
+    if (choice.by_maps && choice.error > 0.0)
+      text += fmt::format(", the volume by {:.2g} %; {}", 100.0 * choice.trials.back().volume_difference,
+                          study::what_limits(choice.trials.back()));
+  }
   return text;
 }
 
@@ -173,7 +186,9 @@ void record_walls(RunRecord& record, const simulation::Simulation& run) {
   record.walls.clear();
   for (std::size_t w = 0; w < run.walls().size(); ++w)
     record.walls.push_back({run.walls()[w].setup().name, run.wears_by_laws(), run.law_volumes(w),
-                            run.impacts_on(w).count(), run.walls()[w].setup().thickness});
+                            static_cast<std::uint64_t>(std::llround(
+                                run.acceleration() * static_cast<double>(run.impacts_on(w).count()))),
+                            run.walls()[w].setup().thickness});
 }
 
 std::string counted(const simulation::Setup& setup) {
@@ -223,7 +238,12 @@ std::string to_json(const RunRecord& record, const simulation::Setup& setup) {
   if (record.resumed > 0) json["resumed"] = record.resumed;
   if (const double factor = acceleration_of(setup); factor != 1.0 || record.acceleration) {
     json["acceleration"] = acceleration_json(record, factor);
-    json["setup"]["Acceleration"] = acceleration_text(record, factor);
+    json["setup"]["Acceleration"] = acceleration_text(record, setup, factor);
+  }
+  if (setup.run.settle.value > 0.0) {
+    const double settle = simulation::seconds_of(setup.run.settle, simulation::period_of(setup.walls));
+    json["settle_s"] = settle;
+    json["setup"]["Flow settles"] = fmt::format("nothing wears in the first {:.4g} s", settle);
   }
   for (const simulation::ShapeSetup& shape : setup.shapes)
     json["setup"][fmt::format("Shape '{}'", shape.name)] = shape_text(shape);

@@ -30,8 +30,16 @@ std::filesystem::path made(const std::filesystem::path& folder) {
 
 /// What the tables' column `revolution` counts: turns or cycles; output intervals where nothing turns.
 double revolution_of(const Simulation& run) {
-  return run.turns() ? run.revolution()
-                     : static_cast<double>(run.steps()) / static_cast<double>(run.steps_per_output());
+  return run.turns() ? run.revolution() : run.output_intervals();
+}
+
+std::vector<std::string> particle_columns(const Simulation& run) {
+  std::vector<std::string> columns{"time_s",           "particles",        "mass_kg",        "inserted",
+                                   "removed",          "removed_mass_kg",  "contacts",       "wall_contacts",
+                                   "kinetic_energy_J", "elastic_energy_J", "fastest_m_per_s"};
+  // What flows, flows in the time that is modelled.
+  if (run.acceleration() > 1.0) columns.emplace_back("modelled_time_s");
+  return columns;
 }
 
 /// How far each vertex has sunk below where it began [um].
@@ -63,10 +71,7 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder, State st
              CsvWriter::Growing{state_.force_table}) {
   if (run.setup().output.frames != simulation::Frames::none) made(folder_ / "vtk");
   if (!run.setup().insertions.empty())
-    particles_.emplace(folder_ / "tables" / "particles.csv",
-                       std::vector<std::string>{"time_s", "particles", "mass_kg", "inserted", "removed",
-                                                "removed_mass_kg", "contacts", "wall_contacts",
-                                                "kinetic_energy_J", "elastic_energy_J", "fastest_m_per_s"},
+    particles_.emplace(folder_ / "tables" / "particles.csv", particle_columns(run),
                        CsvWriter::Growing{state_.particle_table});
   worn_wall_ = analysis::worn_wall(run.walls());
   const bool around =
@@ -81,8 +86,7 @@ RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder, State st
 }
 
 bool RunRecorder::output_due() const noexcept {
-  return run_.steps() > state_.outputs_until &&
-         (run_.finished() || run_.steps() % run_.steps_per_output() == 0);
+  return run_.steps() > state_.outputs_until && run_.at_output();
 }
 
 RunRecorder::State RunRecorder::state() const {
@@ -218,9 +222,19 @@ void RunRecorder::write_spheres(const std::filesystem::path& path) const {
 /// tables/particles.csv: what became of the particles in numbers.
 void RunRecorder::write_particles() {
   const simulation::BulkState s = run_.bulk_state();
-  particles_->row({run_.test_time(), static_cast<double>(s.present), s.mass, static_cast<double>(s.inserted),
-                   static_cast<double>(s.removed), s.removed_mass, static_cast<double>(s.pair_contacts),
-                   static_cast<double>(s.wall_contacts), s.kinetic_energy, s.elastic_energy, s.fastest});
+  std::vector<double> row{run_.test_time(),
+                          static_cast<double>(s.present),
+                          s.mass,
+                          static_cast<double>(s.inserted),
+                          static_cast<double>(s.removed),
+                          s.removed_mass,
+                          static_cast<double>(s.pair_contacts),
+                          static_cast<double>(s.wall_contacts),
+                          s.kinetic_energy,
+                          s.elastic_energy,
+                          s.fastest};
+  if (run_.acceleration() > 1.0) row.push_back(run_.time());
+  particles_->row(row);
 }
 
 void RunRecorder::close() {

@@ -20,15 +20,16 @@ void write_impacts(const std::filesystem::path& path, const Simulation& run) {
   CsvWriter table(path,
                   {"wall", "angle_low_deg", "angle_high_deg", "impacts", "mass_kg", "angle_mean_deg",
                    "speed_mean_m_per_s", "diameter_mean_mm", "finnie_mm3", "oka_mm3", "expression_mm3"});
+  const double of_test = run.acceleration();
   for (std::size_t w = 0; w < run.walls().size(); ++w) {
     const auto& bins = run.impacts_on(w).bins();
     for (std::size_t k = 0; k < bins.size(); ++k) {
       const ImpactSpectrum::Bin& b = bins[k];
       if (b.count == 0) continue;
       table.row({static_cast<double>(w), kDegrees * ImpactSpectrum::low(k),
-                 kDegrees * ImpactSpectrum::low(k + 1), static_cast<double>(b.count), b.mass,
-                 kDegrees * b.angle / b.mass, b.speed / b.mass, kMm * b.diameter / b.mass, kMm3 * b.finnie,
-                 kMm3 * b.oka, kMm3 * b.expression});
+                 kDegrees * ImpactSpectrum::low(k + 1), of_test * static_cast<double>(b.count),
+                 of_test * b.mass, kDegrees * b.angle / b.mass, b.speed / b.mass, kMm * b.diameter / b.mass,
+                 kMm3 * b.finnie, kMm3 * b.oka, kMm3 * b.expression});
     }
   }
   table.close();
@@ -50,6 +51,7 @@ wear::Impact mean_impact(const ImpactSpectrum& impacts) {
 void write_erosion(const std::filesystem::path& path, const Simulation& run) {
   CsvWriter table(path, {"wall", "abrader", "angle_deg", "speed_m_per_s", "diameter_mm", "finnie_mm3_per_kg",
                          "oka_mm3_per_kg", "expression_mm3_per_kg"});
+  const double once = 1.0 / run.acceleration();  // the laws count each impact so many times
   for (std::size_t w = 0; w < run.walls().size(); ++w) {
     wear::Impact impact = mean_impact(run.impacts_on(w));
     if (!(impact.mass > 0.0)) continue;
@@ -64,10 +66,12 @@ void write_erosion(const std::filesystem::path& path, const Simulation& run) {
         wear::add_impact(laws, impact, v);
         impact.mass = 1.0;
         wear::add_impact(laws, impact, per_mass);
+        const auto volume = [once](const wear::MechanismVolumes& of, wear::Mechanism mechanism) {
+          return kMm3 * once * of[static_cast<std::size_t>(mechanism)];
+        };
         table.row({static_cast<double>(w), static_cast<double>(m), static_cast<double>(degree), impact.speed,
-                   kMm * impact.diameter, kMm3 * per_mass[static_cast<std::size_t>(wear::Mechanism::finnie)],
-                   kMm3 * per_mass[static_cast<std::size_t>(wear::Mechanism::oka)],
-                   kMm3 * v[static_cast<std::size_t>(wear::Mechanism::expression)] / mass});
+                   kMm * impact.diameter, volume(per_mass, wear::Mechanism::finnie),
+                   volume(per_mass, wear::Mechanism::oka), volume(v, wear::Mechanism::expression) / mass});
       }
     }
   }
@@ -110,7 +114,7 @@ void WallTables::add(const Simulation& run, double revolution) {
     const wear::MechanismVolumes v = run.law_volumes(w);
     std::vector<double> row{revolution, run.test_time(), static_cast<double>(w)};
     for (const double volume : v) row.push_back(kMm3 * volume);
-    row.push_back(static_cast<double>(run.impacts_on(w).count()));
+    row.push_back(run.acceleration() * static_cast<double>(run.impacts_on(w).count()));
     laws_->row(row);
   }
 }

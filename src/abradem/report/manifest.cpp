@@ -88,6 +88,7 @@ Measurement read_measurement(const Place& place) {
 void read_optional(const Place& place, Manifest& out) {
   const ordered_json& json = place.object;
   if (json.contains("counted")) out.counted = place.text("counted");
+  if (json.contains("settle_s")) out.settle_s = place.number("settle_s");
   if (json.contains("inputs_hash")) out.inputs_hash = place.text("inputs_hash");
   if (json.contains("error")) out.error = place.text("error");
   if (json.contains("case_title")) out.case_title = place.text("case_title");

@@ -57,6 +57,7 @@ struct Manifest {
   std::vector<std::pair<std::string, std::string>> setup;  ///< name and value, as text
   std::vector<std::string> walls;  ///< their names, in the order of the case; empty in old records
   Measurement measurement;
+  double settle_s = 0.0;                            ///< at the start, in which nothing wears
   std::vector<std::optional<double>> thickness_mm;  ///< of each of `walls`, where the case says it
 };
 

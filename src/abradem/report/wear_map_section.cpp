@@ -55,16 +55,20 @@ std::vector<std::size_t> worst_places(const Table& t) {
 
 DataTable places_table(const RunFolder& run) {
   const Table& t = *run.wear;
-  const double hours = run.revolutions.rows() > 0 ? run.revolutions["time_s"].back() / kHour : 0.0;
+  const double settle = run.manifest.settle_s;
+  const double hours = run.revolutions.rows() > 0 ? (run.revolutions["time_s"].back() - settle) / kHour : 0.0;
   const std::vector<std::size_t> places = worst_places(t);
   const bool liner =
       std::ranges::any_of(places, [&](std::size_t r) { return thickness_um(run, t["wall"][r]).has_value(); });
-  DataTable out{.id = "wear-places",
-                .title = "Where the walls wear most",
-                .caption =
-                    "The deepest element of each place; places are a twentieth of the worn extent apart. "
-                    "Rates are means over the run, with the wear coefficients of the case.",
-                .columns = {"wall", "element", "x, y, z [mm]", "depth [µm]", "rate [mm/h]"}};
+  DataTable out{
+      .id = "wear-places",
+      .title = "Where the walls wear most",
+      .caption =
+          "The deepest element of each place; places are a twentieth of the worn extent apart. "
+          "Rates are means over the run, with the wear coefficients of the case" +
+          (settle > 0.0 ? fmt::format(", after the {} s in which the flow settles.", readable(settle))
+                        : std::string(".")),
+      .columns = {"wall", "element", "x, y, z [mm]", "depth [µm]", "rate [mm/h]"}};
   if (liner) out.columns.emplace_back("worn through after [h]");
   out.columns.insert(out.columns.end(), {"sliding [mm]", "impacts [-]", "peak pressure [MPa]"});
   for (const std::size_t r : places) {

@@ -44,11 +44,11 @@ struct ContactSetup {
   bool operator==(const ContactSetup&) const = default;
 };
 
-/// How many revolutions of the test one modelled revolution stands for: its wear counts so many times.
-/// `automatic` leaves the choice to study::choose_acceleration; a Simulation wants it made.
+/// How many seconds (revolutions) of the test one modelled second (revolution) stands for: its wear counts so
+/// many times. `automatic` leaves the choice to study::choose_acceleration; a Simulation wants it made.
 /// docs/theory/scaling.md
 struct Acceleration {
-  double factor = 1.0;  ///< N / n >= 1; 1: every revolution of the test is modelled
+  double factor = 1.0;  ///< >= 1; 1: every second of the test is modelled
   bool automatic = false;
   bool operator==(const Acceleration&) const = default;
 };
@@ -71,7 +71,9 @@ struct WearSetup {
   std::string abrader, worn;      ///< the first wears the second
   double wear_coefficient = 0.0;  ///< alpha_s = k / H_s [1/Pa], Archard
   Acceleration acceleration = {};
-  double tolerance = 0.01;  ///< acceleration automatic: of the groove's profile, relative L2 [-]
+  /// Acceleration automatic: of the groove's profile, or the map of depths, relative L2 [-]; default: 1 % of
+  /// a profile, 10 % of a map.
+  std::optional<double> tolerance = {};
   std::vector<WearLaw> laws{WearLaw::archard};  ///< their volumes add up
   double shear_work_coefficient = 0.0;          ///< C: volume per work of friction [m^3/J]
   double finnie_coefficient = 0.0;              ///< k = c / (psi p) [1/Pa]
@@ -291,7 +293,8 @@ struct TimeStep {
 };
 
 struct RunSetup {
-  Duration end;
+  Duration end;     ///< of the test
+  Duration settle;  ///< at the start, while the flow fills and becomes steady: nothing wears
   Method method = Method::dynamic;
   TimeStep time_step;
   Stability stability = Stability::stop;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -93,14 +94,26 @@ class Simulation {
   [[nodiscard]] double time_step() const noexcept { return dt_; }
   [[nodiscard]] std::uint64_t steps() const noexcept { return steps_; }
   [[nodiscard]] std::uint64_t total_steps() const noexcept { return total_steps_; }
+  /// Once the flow has settled.
   [[nodiscard]] std::uint64_t steps_per_output() const noexcept { return steps_per_output_; }
+  /// Is an output due after the steps made so far? One is due where the flow has settled.
+  [[nodiscard]] bool at_output() const noexcept { return due_after(steps_); }
+  /// Intervals of the output that have passed; a whole number at every output.
+  [[nodiscard]] double output_intervals() const noexcept;
   /// Turns (cycles) of the first wall that turns (oscillates); 0 where none does.
   /// They are revolutions of the test: with an acceleration more than the wall has turned.
   [[nodiscard]] double revolution() const noexcept;
-  /// Revolutions of the test that one modelled revolution stands for; 1 where wear is not accelerated.
+  /// Seconds (revolutions) of the test that a modelled one stands for; 1 where wear is not accelerated.
   [[nodiscard]] double acceleration() const noexcept { return acceleration_; }
-  /// Time of the test [s]: time() times the acceleration.
-  [[nodiscard]] double test_time() const noexcept { return time() * acceleration_; }
+  /// Time of the test [s]: time() until the flow has settled, and acceleration() times what is modelled then.
+  [[nodiscard]] double test_time() const noexcept {
+    if (steps_ < settle_steps_) return std::min(time(), settle_);
+    return settle_ + static_cast<double>(steps_ - settle_steps_) * dt_ * acceleration_;
+  }
+  /// Time at the start in which nothing wears; the test's and the model's [s].
+  [[nodiscard]] double settle_time() const noexcept { return settle_; }
+  /// Does the next step still belong to it?
+  [[nodiscard]] bool settling() const noexcept { return steps_ < settle_steps_; }
   [[nodiscard]] bool turns() const noexcept { return period_ > 0.0; }
   /// Time of one of them [s]; 0 where nothing turns or oscillates.
   [[nodiscard]] double period() const noexcept { return period_; }
@@ -214,10 +227,18 @@ class Simulation {
     int material;
   };
   void plough(SphereWall& contact, std::size_t w, const SlidingSphere& sphere, double groove_volume);
-  [[nodiscard]] bool output_due() const noexcept {
-    return (steps_ + 1) % steps_per_output_ == 0 || steps_ + 1 >= total_steps_;
+  [[nodiscard]] bool due_after(std::uint64_t steps) const noexcept {
+    if (steps >= total_steps_ || steps == settle_steps_) return true;
+    return steps < settle_steps_ ? steps % steps_per_settling_output_ == 0
+                                 : (steps - settle_steps_) % steps_per_output_ == 0;
   }
+  [[nodiscard]] bool output_due() const noexcept { return due_after(steps_ + 1); }
   void choose_time_step();
+  void count_steps();
+  /// Revolutions modelled while the wall wears; 0 where nothing turns.
+  [[nodiscard]] double wearing_revolutions() const noexcept {
+    return period_ > 0.0 ? (end_ - settle_) / period_ : 0.0;
+  }
   [[nodiscard]] double choose_increment() const;
   void find_pair_properties();
   void choose_accounts();
@@ -274,14 +295,17 @@ class Simulation {
   std::vector<double> displaced_;                      // per wall, ploughed aside [m^3]
   std::vector<char> by_laws_;                          // per wall: it wears by others than Archard's
   std::vector<WearUse> wear_use_;                      // walls x materials
+  std::vector<WearUse> no_wear_;                       // likewise, while the flow settles
   WearRecords records_;                                // scratch: of one named particle on one wall
   std::vector<WearAccount> account_;                   // per wall, where it does
   std::vector<std::optional<wear::WearMap>> maps_;     // per wall
   std::vector<std::optional<wear::WearingTip>> tips_;  // per particle
   std::vector<Vec3> tip_along_;                        // per particle: axis s of its tip's map
   std::vector<double> tip_law_;                        // per particle [m^3]
-  double dt_ = 0.0, period_ = 0.0, end_ = 0.0, acceleration_ = 1.0;
+  double dt_ = 0.0, period_ = 0.0, end_ = 0.0, acceleration_ = 1.0;  // end: modelled
+  double settle_ = 0.0, settling_output_ = 0.0;                      // how long; between its outputs [s]
   std::uint64_t steps_ = 0, total_steps_ = 0, steps_per_output_ = 1;
+  std::uint64_t settle_steps_ = 0, steps_per_settling_output_ = 1;
   std::function<void(const Simulation&)> observer_;
   std::vector<double>
       stiffness_ratio_;         // quasi_static: of each particle's contact, to Hertz's; 0: not measured yet

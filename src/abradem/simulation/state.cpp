@@ -44,7 +44,7 @@ void Simulation::load(core::ArchiveReader& archive) {
     archive.require(wall.is_plane() || wall.surface().restored(),
                     "belongs to piles that do not fit the wall");
   for (auto& tip : tips_) archive.require(!tip || tip->restored(), "belongs to a worn tip that is no map");
-  total_steps_ = static_cast<std::uint64_t>(std::llround(end_ / dt_));
+  count_steps();
   move_walls();
   for (std::size_t k = 0; k < sphere_walls_.size(); ++k)
     archive.require(sphere_walls_[k].restore(walls_[k % walls_.size()]),

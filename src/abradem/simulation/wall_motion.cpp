@@ -120,6 +120,12 @@ std::optional<double> period_of(const WallSetup& wall) noexcept {
   return m->kind == MotionKind::rotation ? 2.0 * pi / std::abs(m->rate) : 1.0 / m->frequency;
 }
 
+double period_of(const std::vector<WallSetup>& walls) noexcept {
+  for (const WallSetup& wall : walls)
+    if (const std::optional<double> period = period_of(wall)) return *period;
+  return 0.0;
+}
+
 std::optional<TableProblem> problem_of_table(const MotionSetup& m) {
   if (m.kind != MotionKind::table) return std::nullopt;
   if (m.rows.empty()) return TableProblem{0, "the table has no rows"};

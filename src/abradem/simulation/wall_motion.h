@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "abradem/geometry/pose.h"
 #include "abradem/simulation/setup.h"
@@ -29,6 +30,8 @@ struct MotionLimits {
 [[nodiscard]] const MotionSetup* cyclic_motion(const WallSetup& wall) noexcept;
 /// Time of one turn or cycle of that motion [s].
 [[nodiscard]] std::optional<double> period_of(const WallSetup& wall) noexcept;
+/// … of the first wall that has one; 0 where none has [s].
+[[nodiscard]] double period_of(const std::vector<WallSetup>& walls) noexcept;
 
 /// What is wrong with a motion's table, and in which row; nothing for other motions.
 struct TableProblem {

@@ -23,6 +23,7 @@ void Simulation::accumulate_wear() {
 }
 
 void Simulation::book_wear() {
+  if (settling()) return;
   for (std::size_t p = 0; p < particles_.size(); ++p)
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       Wall& wall = walls_[w];
@@ -131,7 +132,8 @@ double Simulation::book_contact(SphereWall& contact, const WearRecords& records,
 /// Of all walls and materials, once the laws, accounts and maps are known.
 void Simulation::find_uses_of_wear() {
   const std::size_t materials = setup_.materials.size();
-  wear_use_.assign(walls_.size() * materials, WearUse::none);
+  no_wear_.assign(walls_.size() * materials, WearUse::none);
+  wear_use_ = no_wear_;
   for (std::size_t w = 0; w < walls_.size(); ++w)
     for (std::size_t m = 0; m < materials; ++m) {
       const int material = static_cast<int>(m);
@@ -231,7 +233,7 @@ void Simulation::plough(SphereWall& contact, std::size_t w, const SlidingSphere&
   const double speed2 = norm2(sliding);
   const Vec3 turning =
       speed2 > 0.0 ? pose.turn_back(cross(pose.spin, sphere.v + sliding)) * (-1.0 / speed2) : Vec3{};
-  const double n = period_ > 0.0 ? end_ / period_ : 0.0;
+  const double n = wearing_revolutions();
   const wear::Ploughing ploughing{removed_fraction(), std::tan(setup_.ploughing->ridge_angle),
                                   setup_.ploughing->ahead};
   contact.plough(

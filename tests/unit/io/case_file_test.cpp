@@ -518,7 +518,8 @@ TEST(Acceleration, IsANumberOrLeftToTheProgram) {
   EXPECT_EQ(example({key + "108.5"}).wear[0].acceleration, (simulation::Acceleration{108.5, false}));
   const CaseSetup automatic = example({key + "auto", "wear.\"iron_ore/mild_steel\".tolerance=2 %"});
   EXPECT_EQ(automatic.wear[0].acceleration, (simulation::Acceleration{1.0, true}));
-  EXPECT_DOUBLE_EQ(automatic.wear[0].tolerance, 0.02);
+  EXPECT_DOUBLE_EQ(automatic.wear[0].tolerance.value(), 0.02);
+  EXPECT_FALSE(example().wear[0].tolerance);
   EXPECT_EQ(read(resolved_case(automatic)), automatic);
 }
 
@@ -530,6 +531,29 @@ TEST(Acceleration, IsOneForAllPairsAndNeedsSomethingThatTurns) {
   EXPECT_TRUE(contains(complaint(kSmall + std::string("[wear.\"ore/ore\"]\nwear_coefficient = 1e-12\n"
                                                       "acceleration = 2\n")),
                        "acceleration leaves out revolutions, but no wall has a motion"));
+}
+
+/// Many particles on a wall at rest.
+constexpr const char* kMany = R"(
+[insertion.feed]
+material = "ore"
+number = 10
+size = { radius = "1 mm" }
+volume = { low = [0, 0, "10 mm"], high = ["20 mm", "20 mm", "30 mm"] }
+[wear."ore/ore"]
+wear_coefficient = 1e-12
+)";
+
+TEST(Acceleration, OfManyParticlesBeginsWhereTheirFlowHasSettled) {
+  const std::string many = kSmall + std::string(kMany), settle = "run.settle=";
+  EXPECT_EQ(example().run.settle, (simulation::Duration{0.0, false}));
+  const CaseSetup settled = read(many + "acceleration = 1000\n", {settle + "1 ms", "run.end=20 s"});
+  EXPECT_EQ(settled.run.settle, (simulation::Duration{1e-3, false}));
+  EXPECT_EQ(read(resolved_case(settled)), settled);
+  EXPECT_TRUE(contains(complaint(many + "acceleration = \"auto\"\n"), "give [run] settle"));
+  EXPECT_TRUE(contains(complaint(many, {settle + "2 s", "run.end=2 s"}), "must be before run.end"));
+  EXPECT_TRUE(contains(complaint(many, {settle + "1 rev"}), "revolutions cannot be counted"));
+  EXPECT_TRUE(contains(complaint(many, {settle + "-1 s"}), "'settle': must be >= 0"));
 }
 
 TEST(WearLaws, AreOneOrAList) {
