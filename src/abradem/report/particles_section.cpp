@@ -46,7 +46,7 @@ Figure numbers(const Table& table) {
                   against_time(table, "inserted", "put in", 2),
                   against_time(table, "removed", "taken out", 1)};
   Panel contacts{.title = "Contacts", .x = kTime, .y = {.title = "contacts [-]"}};
-  contacts.series = {against_time(table, "contacts", "of two particles", 0),
+  contacts.series = {against_time(table, "contacts", "of two particles", 4),
                      against_time(table, "wall_contacts", "with walls", 3)};
   figure.panels = {std::move(count), std::move(contacts)};
   return figure;

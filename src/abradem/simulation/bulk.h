@@ -35,7 +35,7 @@ class Bulk {
   /// @param materials densities are taken from them   @param shapes of setup.shapes, in their order
   Bulk(const Setup& setup, const std::vector<material::Material>& materials,
        const std::vector<material::PairProperties>& properties, const Particles& named,
-       const std::vector<ClumpShape>& shapes);
+       const std::vector<ClumpShape>& shapes, std::span<const Wall> walls);
 
   /// Takes in what is due for insertion and takes out what has left; makes the lists anew when they have worn
   /// out; finds the contacts with the walls.
@@ -87,7 +87,7 @@ class Bulk {
 
  private:
   [[nodiscard]] bool needs_loads() const noexcept { return named_ > 0 || !clumps_.empty(); }
-  void take_in(double time);
+  void take_in(double time, std::span<const Wall> walls);
   [[nodiscard]] double longest_stretch() const;
   void check_periods() const;
   [[nodiscard]] double margin(double dt);

@@ -39,12 +39,40 @@ simulation::Setup placed(const std::vector<PlacedSphere>& spheres, double time_s
   return setup;
 }
 
+double mass() { return 2500.0 * 4.0 / 3.0 * std::numbers::pi * R * R * R; }
+
+/// A plate in the middle of the volume, and a plane across it: what comes in touches neither, now and later.
+TEST(BulkInsertion, LeavesRoomForTheWalls) {
+  simulation::Setup setup = placed({}, 5e-6);
+  InsertionSetup in = setup.insertions[0];
+  in.size.radius = R;
+  in.volume.high = {0.05, 0.05, 0.05};
+  in.number = 120;
+  setup.insertions = {in, in};
+  setup.insertions[1].number = 20;
+  setup.insertions[1].mass_rate = 20.0 * mass() / 1e-4;
+  setup.walls = {test::plane("slope", {0, 0, 0.005}, {0.1, 0, 1}), test::plane("plate", {}, {0, 0, 1})};
+  MeshSetup& plate = setup.walls[1].mesh;
+  plate.shape = MeshShape::plate;
+  plate.length = plate.width = 0.1;
+  plate.size = 0.03;
+  plate.position = {0.025, 0.025, 0.025};
+  plate.rotation = {0, 0.4, 0};
+  Simulation run(setup);
+  while (run.time() < 1.1e-3) run.step();  // tried anew every millisecond
+  const contact::Spheres& spheres = run.bulk()->spheres();
+  ASSERT_EQ(spheres.size(), 140u);
+  const Vec3 n = normalized(Vec3{0.1, 0, 1}), m{std::sin(0.4), 0, std::cos(0.4)};
+  for (const contact::SphereRow& s : spheres.row) {
+    EXPECT_GE(dot(s.position() - Vec3{0, 0, 0.005}, n), R);
+    EXPECT_GE(std::abs(dot(s.position() - plate.position, m)), R);
+  }
+}
+
 simulation::Setup with_floor(simulation::Setup setup) {
   setup.walls.push_back(test::plane("floor", {0, 0, 0}, {0, 0, 1}));
   return setup;
 }
-
-double mass() { return 2500.0 * 4.0 / 3.0 * std::numbers::pi * R * R * R; }
 
 constexpr double kOverlap = 1e-6;
 
@@ -217,7 +245,13 @@ TEST(BulkWatchdog, TooDeepAnOverlapIsNamedWithTheWall) {
   setup.walls[0].mesh.size = 4e-3;
   setup.walls[0].contact = ContactRule::resolved;
   Simulation mesh(setup);
-  EXPECT_TRUE(says(stopped(mesh, 1), {"particle 0 at (", "its overlap with wall 'floor' is 0.22 mm"}));
+  EXPECT_TRUE(says(stopped(mesh, 1),
+                   {"particle 0 at (", "its overlap with wall 'floor' is 0.22 mm", "Shorten the time step"}));
+  // From behind a mesh whose normals point the other way.
+  setup.insertions[0].placed[0].position.z = 0.3 * R;
+  Simulation behind(setup);
+  EXPECT_TRUE(says(stopped(behind, 1), {"its overlap with wall 'floor' is 1.4 mm",
+                                        "Do the normals of its triangles", "sides = \"both\""}));
 }
 
 TEST(BulkWatchdog, TwoSpheresInOneAnotherStopTheRun) {
