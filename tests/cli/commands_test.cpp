@@ -183,6 +183,15 @@ TEST(Run, NeverTouchesAFolderThatHoldsNoRun) {
   EXPECT_EQ(read_file(folder.path() / "report.html"), "mine");
 }
 
+/// What is left of a run that was killed before its first file was whole is nothing.
+TEST(Run, TakesAFolderInWhichOneWasKilledAtItsVeryBeginning) {
+  const ScratchFolder folder;
+  write_file(folder.path() / ".abradem-write-test", "");
+  write_file(folder.path() / "case.resolved.toml.123.tmp", "schema");
+  EXPECT_EQ(run_program(kShortRun + " -o .", folder.path()).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "case.resolved.toml.123.tmp"));
+}
+
 TEST(Run, AFolderThatCannotBeUsedIsNamed) {
   const ScratchFolder folder;
   write_file(folder.path() / "file", "");
