@@ -200,6 +200,8 @@ std::string verdict(const RunFolder& run) {
                       run.manifest.status == "failed"    ? "was stopped because it failed"
                       : run.manifest.status == "running" ? "is going on, or was killed"
                                                          : "was interrupted");
+    if (!run.manifest.error.empty())
+      out = fmt::format("The run failed: {}. What follows is the last good state. ", run.manifest.error);
   }
   if (!run.has_groove() && ledger.law_volume_mm3 == 0.0)
     return out +

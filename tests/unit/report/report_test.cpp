@@ -132,6 +132,25 @@ TEST_F(Report, ShowsParticlesInsteadOfAGrooveWhereARunHasThemInNumbers) {
   EXPECT_FALSE(has(html, ">Groove depth<"));
   write_report(folder_);
   EXPECT_TRUE(has(read_text(folder_ / "tables/mass-flow.csv"), "0.4"));  // kg/s
+  EXPECT_TRUE(has(html, "20 particles; 0.4000 kg/s on average since 0 s"));
+  EXPECT_TRUE(has(html, "After 1 revolution the walls have lost "));
+  EXPECT_TRUE(has(html, "<b>Figure 1.</b> <b>Wear volume.</b>"));
+
+  // Walls that keep their shape; then nothing worn; then a run that failed.
+  std::string text = manifest("");
+  const auto with = [&](const std::string& was, const std::string& is) {
+    text.replace(text.find(was), was.size(), is);
+    write_text(folder_ / "run.json", text);
+    return make_page(read_run_folder(folder_));
+  };
+  html = with("\"kappa\": 1.0", "\"kappa\": 0.0");
+  EXPECT_TRUE(has(html, "the wear laws have taken 0.05000 mm³ from walls that keep their shape"));
+  EXPECT_FALSE(has(html, "κ, mesh over law"));
+  html = with("\"law_volume_mm3\": 0.05", "\"law_volume_mm3\": 0.0");
+  EXPECT_TRUE(has(html, "After 1 revolution no wall has worn."));
+  EXPECT_FALSE(has(html, "Wear volume"));
+  html = with("\"completed\"", "\"failed\", \"error\": \"particle 7 is <gone>\"");
+  EXPECT_TRUE(has(html, "The run failed: particle 7 is &lt;gone&gt;. What follows is the last good state."));
 }
 
 TEST_F(Report, ShowsThePinAndTheRidgesOnlyWhereThereAreSome) {
