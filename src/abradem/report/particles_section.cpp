@@ -97,6 +97,14 @@ std::string sentence(const Table& table) {
 
 }  // namespace
 
+std::optional<Outflow> mean_outflow(const Table& particles) {
+  const std::vector<double>&time = particles["time_s"], &mass = particles["removed_mass_kg"];
+  if (mass.empty() || mass.front() > 0.0 || !(mass.back() > 0.0)) return std::nullopt;
+  std::size_t first = 0;
+  while (mass[first + 1] == 0.0) ++first;
+  return Outflow{(mass.back() - mass[first]) / (time.back() - time[first]), time[first]};
+}
+
 std::optional<PageSection> particles_section(const RunFolder& run) {
   if (!run.particles || run.particles->rows() == 0) return std::nullopt;
   const Table& table = *run.particles;

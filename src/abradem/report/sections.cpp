@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "abradem/report/particles_section.h"
 #include "abradem/report/text.h"
 
 namespace abradem::report {
@@ -132,20 +133,15 @@ Card depth_card(const RunFolder& run) {
 }
 
 /// What has left, and how fast since the first did.
-Card left_card(const Table& particles) {
-  const std::vector<double>&time = particles["time_s"], &mass = particles["removed_mass_kg"];
-  std::size_t first = 0;
-  while (mass[first + 1] == 0.0) ++first;
-  const std::size_t last = mass.size() - 1;
-  return {
-      "Mass that left",
-      readable(mass[last]),
-      "kg",
-      fmt::format("{} particles; {} kg/s on average since {} s",
-                  readable_count(static_cast<long long>(particles["removed"][last])),
-                  readable((mass[last] - mass[first]) / (time[last] - time[first])), readable(time[first])),
-      Mark::none,
-      ""};
+Card left_card(const Table& particles, const Outflow& outflow) {
+  return {"Mass that left",
+          readable(particles["removed_mass_kg"].back()),
+          "kg",
+          fmt::format("{} particles; {} kg/s on average since {} s",
+                      readable_count(static_cast<long long>(particles["removed"].back())),
+                      readable(outflow.rate), readable(outflow.since)),
+          Mark::none,
+          ""};
 }
 
 /// Of a run with particles in numbers.
@@ -167,8 +163,7 @@ std::string bulk_cards(const RunFolder& run, const LastRow& row) {
                  fmt::format("{} kg; {} were put in", readable(p["mass_kg"].back()),
                              readable_count(static_cast<long long>(p["inserted"].back()))),
                  Mark::none, ""});
-    if (p["removed_mass_kg"].back() > 0.0 && p.rows() > 1 && p["removed_mass_kg"][0] == 0.0)
-      out += html(left_card(p));
+    if (const auto outflow = mean_outflow(p)) out += html(left_card(p, *outflow));
   }
   return out + html(status_card(run, row));
 }

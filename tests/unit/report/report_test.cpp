@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abradem/report/report.h"
 
+#include <algorithm>
+
 #include "abradem/report/sections.h"
+#include "abradem/report/sweep_table.h"
 #include "run_fixture.h"
 
 namespace abradem::report {
@@ -135,6 +138,15 @@ TEST_F(Report, ShowsParticlesInsteadOfAGrooveWhereARunHasThemInNumbers) {
   EXPECT_TRUE(has(html, "20 particles; 0.4000 kg/s on average since 0 s"));
   EXPECT_TRUE(has(html, "After 1 revolution the walls have lost "));
   EXPECT_TRUE(has(html, "<b>Figure 1.</b> <b>Wear volume.</b>"));
+
+  // A table of runs has them too, where one has.
+  const SweepTable sweep = make_sweep_table({"a"}, {{"0001", "completed", {"1"}, folder_}});
+  const auto of_run = [&](const char* column) {
+    const auto found = std::ranges::find(sweep.results, column, &SweepColumn::title);
+    return found == sweep.results.end() ? -1.0 : found->number[0];
+  };
+  EXPECT_EQ(of_run("particles"), 80.0);
+  EXPECT_DOUBLE_EQ(of_run("outflow_kg_per_s"), 0.4);
 
   // Walls that keep their shape; then nothing worn; then a run that failed.
   std::string text = manifest("");
