@@ -269,9 +269,12 @@ void Bulk::integrate(const Surroundings& around) {
 void Bulk::check(const Surroundings& around, std::uint64_t step) const {
   const bool slow = met_.longest <= kFastest && met_.fastest2 <= fastest_allowed_ * fastest_allowed_ &&
                     walls_.fastest_wall() * around.dt <= skin_;
+  const bool deep = !pairs_sound_ || !walls_sound_;
   // What lies too deep is thrown out too fast: the cause first.
-  if (met_.finite && (!pairs_sound_ || !walls_sound_)) check_overlaps(around, step);
+  if (met_.finite && deep) check_overlaps(around, step);
   if (!met_.finite || !slow) check_motion(around, step);
+  if (deep)
+    fail(0, "it or another one overlaps a sphere or a wall by more than a tenth of its radius", around, step);
 }
 
 void Bulk::check_motion(const Surroundings& around, std::uint64_t step) const {
@@ -341,7 +344,6 @@ void Bulk::check_overlaps(const Surroundings& around, std::uint64_t step) const 
   for (const BulkWalls::NearMesh& m : walls_.meshes())
     for (const SphereWall::Touch& t : m.contact->touches())
       check_wall(m.sphere, at(m.wall), t.overlap, kDeepestInWall);
-  fail(0, "it or another one overlaps a sphere or a wall by more than a tenth of its radius", around, step);
 }
 
 void Bulk::watch_stability(const Surroundings& around, std::uint64_t step, Stability then) {
