@@ -8,6 +8,7 @@
 
 #include "abradem/contact/full_law.h"
 #include "abradem/core/error.h"
+#include "abradem/geometry/mesh_check.h"
 
 namespace abradem::simulation {
 
@@ -101,9 +102,12 @@ Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
 
 void Bulk::take_in(double time, std::span<const Wall> walls) {
   const auto clear = [&](const Vec3& centre, double radius) {
-    return std::ranges::all_of(walls, [&](const Wall& wall) {
-      return !wall.present(time) || is_clear_of(wall, wall.pose_at(time).to_body(centre), radius);
-    });
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+      const Vec3 c = walls[w].pose_at(time).to_body(centre);
+      if (walls[w].present(time) && (!is_clear_of(walls[w], c, radius) || is_inside(w, walls[w], c)))
+        return false;
+    }
+    return true;
   };
   for (Inserter& inserter : inserters_) {
     if (!inserter.wants(time)) continue;
@@ -124,6 +128,21 @@ void Bulk::take_in(double time, std::span<const Wall> walls) {
     }
   }
   if (!clumps_.empty()) spheres_.clump.resize(spheres_.size(), -1);
+}
+
+/// Is c, in its frame, inside the solid that the wall's mesh bounds?
+bool Bulk::is_inside(std::size_t w, const Wall& wall, const Vec3& c) {
+  if (wall.is_plane() || wall.setup().sides == Sides::both) return false;
+  const geometry::BoundingBox box = wall.view().grid.box();
+  if (c.x < box.low.x || c.y < box.low.y || c.z < box.low.z || c.x > box.high.x || c.y > box.high.y ||
+      c.z > box.high.z)
+    return false;
+  solid_.resize(std::max(solid_.size(), w + 1));
+  if (!solid_[w]) {
+    const geometry::TriangleMesh& mesh = wall.surface().mesh();
+    solid_[w] = geometry::signed_volume(mesh) > 0.0 && geometry::check_mesh(mesh).closed;
+  }
+  return *solid_[w] && is_behind(wall.view(), c);
 }
 
 void Bulk::take_out_clumps() {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "abradem/contact/sphere_forces.h"
@@ -88,6 +89,7 @@ class Bulk {
  private:
   [[nodiscard]] bool needs_loads() const noexcept { return named_ > 0 || !clumps_.empty(); }
   void take_in(double time, std::span<const Wall> walls);
+  [[nodiscard]] bool is_inside(std::size_t w, const Wall& wall, const Vec3& c);
   [[nodiscard]] double longest_stretch() const;
   void check_periods() const;
   [[nodiscard]] double margin(double dt);
@@ -114,6 +116,7 @@ class Bulk {
   contact::LoadRows load_;
   BulkWalls walls_;
   std::vector<Inserter> inserters_;
+  std::vector<std::optional<bool>> solid_;  // of each wall that was asked: does it bound a solid?
   std::optional<DomainSetup> domain_;
   Vec3 period_;  // 0 along open axes
   std::vector<std::size_t> place_of_named_;

@@ -311,14 +311,16 @@ std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Sphere
 void Inserter::refuse_full_volume() const {
   throw InputError(fmt::format(
       "insertion '{}': its volume is full after {} of the {} particles to be placed there ({:.3g} kg, {:.1f} "
-      "% "
-      "of the volume; at random, without overlaps, {} can be reached, less where walls stand in it). Enlarge "
-      "the "
-      "volume, lower the number, or insert at a mass_rate",
+      "% of the volume; at random, without overlaps, {} can be reached, less where walls stand in it). "
+      "Enlarge "
+      "the volume, lower the number, or insert at a mass_rate{}",
       setup_.name, inserted_,
       setup_.number > 0 ? fmt::format("{}", setup_.number) : fmt::format("{:.4g} kg of", *setup_.mass), mass_,
       100.0 * mass_ / density_ / volume_of(setup_.volume),
-      shape_ ? "less than the 30 % of spheres" : "about 30 %"));
+      shape_ ? "less than the 30 % of spheres" : "about 30 %",
+      inserted_ == 0 ? ". Does it lie inside a wall? A closed mesh is a solid; a container of one layer has "
+                       "sides = \"both\""
+                     : ""));
 }
 
 }  // namespace abradem::simulation

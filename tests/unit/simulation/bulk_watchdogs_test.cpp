@@ -2,6 +2,7 @@
 // Each watchdog over particles in numbers stops a run that is made to trigger it, and says why.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -66,6 +67,52 @@ TEST(BulkInsertion, LeavesRoomForTheWalls) {
   for (const contact::SphereRow& s : spheres.row) {
     EXPECT_GE(dot(s.position() - Vec3{0, 0, 0.005}, n), R);
     EXPECT_GE(std::abs(dot(s.position() - plate.position, m)), R);
+  }
+}
+
+/// Nothing is put into a closed solid, however large against the particles; the same mesh inside out is a
+/// container.
+TEST(BulkInsertion, KeepsOutOfSolids) {
+  const auto cube = [](double from, double to, bool inside_out) {
+    geometry::TriangleMesh mesh;
+    for (const double z : {from, to})
+      for (const double y : {from, to})
+        for (const double x : {from, to}) mesh.vertices.push_back({x, y, z});
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    if (inside_out)
+      for (geometry::Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    return mesh;
+  };
+  simulation::Setup setup = placed({}, 1e-6);
+  InsertionSetup& in = setup.insertions[0];
+  in.size.radius = R;
+  in.volume.high = {0.05, 0.05, 0.05};
+  in.number = 200;
+  setup.walls = {test::plane("block", {}, {0, 0, 1})};
+  setup.walls[0].mesh.shape = MeshShape::file;
+  setup.walls[0].contact = ContactRule::resolved;
+  const auto inside = [&](bool inside_out) {
+    const Simulation run(setup,
+                         [&](const MeshSetup&, std::uint64_t) { return cube(0.01, 0.04, inside_out); });
+    const contact::Spheres& spheres = run.bulk()->spheres();
+    return std::ranges::count_if(spheres.row, [](const contact::SphereRow& s) {
+      const Vec3 p = s.position();
+      return std::min({p.x, p.y, p.z}) > 0.01 && std::max({p.x, p.y, p.z}) < 0.04;
+    });
+  };
+  EXPECT_EQ(inside(false), 0);
+  EXPECT_GT(inside(true), 10);
+  setup.walls[0].sides = Sides::both;  // a container of one layer
+  EXPECT_GT(inside(false), 10);
+  setup.walls[0].sides = Sides::front;
+  setup.insertions[0].volume.low = {0.015, 0.015, 0.015};
+  setup.insertions[0].volume.high = {0.035, 0.035, 0.035};
+  try {
+    static_cast<void>(inside(false));
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_TRUE(says(e.what(), {"full after 0 of the 200", "A closed mesh is a solid", "sides = \"both\""}));
   }
 }
 
