@@ -21,6 +21,7 @@ file(ARCHIVE_CREATE OUTPUT ${packed} PATHS ${bundle} FORMAT raw COMPRESSION GZip
 set(code "// Made by cmake/embed_report.cmake from report/; do not edit.\n#include \"abradem/report/page_source.h\"\n\n")
 string(APPEND code "using namespace std::string_view_literals;\n\nnamespace abradem::report {\n")
 foreach(entry IN ITEMS page_shell=${SOURCE}/page.html run_body=${SOURCE}/run.html groove_figures=${SOURCE}/groove.html
+                       surface_figures=${SOURCE}/surface.html volume_figure=${SOURCE}/volume.html
                        wear_map_body=${SOURCE}/wear-map.html
                        page_style=${SOURCE}/page.css
                        chart_tools_script=${SOURCE}/charts.js run_script=${SOURCE}/run.js

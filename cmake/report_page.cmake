@@ -7,6 +7,7 @@ add_custom_command(
           -P ${PROJECT_SOURCE_DIR}/cmake/embed_report.cmake
   DEPENDS ${PROJECT_SOURCE_DIR}/report/page.html ${PROJECT_SOURCE_DIR}/report/run.html
           ${PROJECT_SOURCE_DIR}/report/groove.html ${PROJECT_SOURCE_DIR}/report/wear-map.html
+          ${PROJECT_SOURCE_DIR}/report/surface.html ${PROJECT_SOURCE_DIR}/report/volume.html
           ${PROJECT_SOURCE_DIR}/report/page.css ${PROJECT_SOURCE_DIR}/report/charts.js
           ${PROJECT_SOURCE_DIR}/report/run.js ${PROJECT_SOURCE_DIR}/report/figures.js
           ${PROJECT_SOURCE_DIR}/report/vendor/plotly/plotly-abradem.min.js

@@ -3,7 +3,10 @@
 set(ABRADEM_CASE_TEMPLATES
     pin-on-disc ${PROJECT_SOURCE_DIR}/cases/pin-on-disc.toml
     plate ${PROJECT_SOURCE_DIR}/cases/templates/plate.toml
-    laboratory ${PROJECT_SOURCE_DIR}/cases/laboratory.toml)
+    laboratory ${PROJECT_SOURCE_DIR}/cases/laboratory.toml
+    chute ${PROJECT_SOURCE_DIR}/cases/templates/chute.toml
+    hopper ${PROJECT_SOURCE_DIR}/cases/hopper.toml
+    angle-of-repose ${PROJECT_SOURCE_DIR}/cases/angle-of-repose.toml)
 
 set(ABRADEM_TEMPLATE_ENTRIES "")
 while(ABRADEM_CASE_TEMPLATES)

@@ -98,7 +98,7 @@ function baseLayout(more) {
 
 // A colour bar beside the plot; on a phone below it.
 function colourBar(title, below = -0.28) {
-  const common = { outlinewidth: 0, tickfont: { size: narrow() ? 11.5 : 12 } };
+  const common = { outlinewidth: 0, exponentformat: 'power', tickfont: { size: narrow() ? 11.5 : 12 } };
   return narrow() ? { ...common, orientation: 'h', y: below, yanchor: 'top', thickness: 12, len: 1, title: { text: title, side: 'top' } }
                   : { ...common, thickness: 14, len: 1, title: { text: title, side: 'right' } };
 }

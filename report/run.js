@@ -16,9 +16,18 @@ function abscissa(revolutions) {
                                        : { values: revolutions.time_s, title: 'time [s]', word: 'output' };
 }
 
+// Lengths of the three axes for ranges of these sizes, the longest being 1. What is long and narrow would be a thread: its
+// width is stretched to a quarter of its length. The thin side of a plate stays.
+function proportions(sizes) {
+  const most = largest(sizes), middle = [...sizes].sort((a, b) => a - b)[1], stretched = middle < most / 8;
+  return { stretched, lengths: sizes.map((s) => (stretched && s === middle ? .25 : s / most)) };
+}
+const kStretched = ' Stretched across its length.';
+
 // ---------------------------------------------------------------- the worn surface in 3D
 function surfaceFigure(data, facts, arrays) {
   const facet = facts.surface;
+  if (!$('#fig-surface')) return;  // no wall wears
   if (!facet) {
     figure('fig-surface', () => ({ empty: facts.surface_note }), 'surface.csv', () => '');
     figure('fig-map', () => ({ empty: facts.surface_note }), 'wear-map.csv', () => '');
@@ -65,9 +74,10 @@ function surfaceFigure(data, facts, arrays) {
     const xr = range(px), yr = range(py);
     const z0 = s.z[0], sunk = facet.max_depth_um * chosen / 1000;
     const zr = flat ? [z0 - 1.1 * sunk, z0 + 0.35 * sunk] : range(pz);
-    const size = Math.max(xr[1] - xr[0], yr[1] - yr[0]), scale = view === 'whole' ? 1.55 : 1.5;
+    const size = Math.max(xr[1] - xr[0], yr[1] - yr[0], flat ? 0 : zr[1] - zr[0]), scale = view === 'whole' ? (flat ? 1.55 : 1.25) : 1.5;
     const far = narrow() ? (view === 'whole' ? 1.75 : 1.95) : view === 'whole' ? 1.2 : 1;
-    const ratio = (r) => scale * (r[1] - r[0]) / size;
+    const ratio = (r) => scale * (r[1] - r[0]) / size, shape = proportions([xr, yr, flat ? [0, 0] : zr].map((r) => r[1] - r[0]));
+    const across = (k, r) => (view === 'whole' && shape.stretched ? scale * shape.lengths[k] : ratio(r));
     const step = roundDown(facet.max_depth_um / (narrow() ? 1 : 1.9)), levels = [0];
     while (levels.length < 6 && levels.at(-1) + step <= facet.max_depth_um * 1.05) levels.push(levels.at(-1) + step);
     const zAxis = flat ? { tickvals: levels.map((d) => z0 - d * chosen / 1000),
@@ -78,14 +88,15 @@ function surfaceFigure(data, facts, arrays) {
         colorscale: kDepthScale, flatshading: false, lighting: { ambient: .78, diffuse: .45, specular: .06, roughness: .9, fresnel: .05 },
         lightposition: { x: -2000, y: -4000, z: 9000 }, hoverinfo: 'text',
         text: Array.from(s.depth, (d, v) => `x ${s.x[v].toFixed(2)} mm<br>y ${s.y[v].toFixed(2)} mm<br>depth ${digits(d)} µm`),
-        colorbar: narrow() ? { orientation: 'h', y: -0.02, yanchor: 'top', thickness: 12, len: .9, title: { text: 'depth [µm]', side: 'top' }, outlinewidth: 0, tickfont: { size: 11.5 } }
-                           : { thickness: 14, len: .75, x: 1.0, title: { text: 'depth [µm]', side: 'top' }, outlinewidth: 0, tickfont: { size: 12 } },
+        colorbar: narrow() ? { orientation: 'h', y: -0.02, yanchor: 'top', thickness: 12, len: .9, title: { text: 'depth [µm]', side: 'top' }, outlinewidth: 0, tickfont: { size: 11.5 }, exponentformat: 'power' }
+                           : { thickness: 14, len: .75, x: 1.0, title: { text: 'depth [µm]', side: 'top' }, outlinewidth: 0, tickfont: { size: 12 }, exponentformat: 'power' },
       }],
       layout: {
         margin: { l: 0, r: 0, t: 8, b: narrow() ? 50 : 8 }, uirevision: view, dragmode: 'orbit',
         scene: {
-          uirevision: view, dragmode: 'orbit', aspectmode: 'manual', aspectratio: { x: ratio(xr), y: ratio(yr), z: ratio(zr) },
-          camera: view === 'whole' ? { eye: { x: 0, y: -1.12 * far, z: 1.3 * far }, center: { x: 0, y: -.2, z: -.12 } }
+          uirevision: view, dragmode: 'orbit', aspectmode: 'manual', aspectratio: { x: across(0, xr), y: across(1, yr), z: flat ? ratio(zr) : across(2, zr) },
+          camera: view === 'whole' && !flat ? { eye: { x: .9 * far, y: -1.35 * far, z: far }, center: { x: 0, y: 0, z: -.1 } }
+                : view === 'whole' ? { eye: { x: 0, y: -1.12 * far, z: 1.3 * far }, center: { x: 0, y: -.2, z: -.12 } }
                                    : { eye: { x: .6 * far, y: -1.0 * far, z: .85 * far }, center: { x: .03, y: 0, z: -.08 } },
           xaxis: sceneAxis('x [mm]', { range: xr }), yaxis: sceneAxis('y [mm]', { range: yr, nticks: view === 'whole' ? 5 : 3 }),
           // Seen whole, a flat track is too thin for a scale of its height; the colour bar has it.
@@ -94,7 +105,7 @@ function surfaceFigure(data, facts, arrays) {
       },
       buttons: ['zoom3d', 'pan3d', 'orbitRotation', 'resetCameraDefault3d'],
       caption: `The worn band of the wall: ${facet.triangles.toLocaleString('en').replaceAll(',', '\u202f')} of its ${facet.mesh_triangles.toLocaleString('en').replaceAll(',', '\u202f')} triangles`
-             + `${facet.resampled ? ', resampled on a grid' : ''}. Deepest point ${digits(facet.max_depth_um)} µm; depth is drawn ${chosen} times too large. Drag to turn, ${narrow() ? 'pinch' : 'scroll'} to zoom.`,
+             + `${facet.resampled ? ', resampled on a grid' : ''}. Deepest point ${digits(facet.max_depth_um)} µm; depth is drawn ${chosen} times too large.${view === 'whole' && shape.stretched ? kStretched : ''} Drag to turn, ${narrow() ? 'pinch' : 'scroll'} to zoom.`,
     };
   }
   figure('fig-surface', draw, 'surface.csv', () => {
@@ -135,9 +146,9 @@ function wearMapFigure(map, arrays) {
     if (!(most > 0)) return { empty: `This wall has no ${quantity.title.replace(/ \[.*\]$/, '')}.` };
     const [px, py, pz] = [part(x), part(y), part(z)];
     const range = (p) => { const a = smallest(p), b = largest(p), pad = 0.02 * (b - a) + 1e-6; return [a - pad, b + pad]; };
-    const ranges = [range(px), range(py), range(pz)], size = largest(ranges.map((r) => r[1] - r[0])), far = narrow() ? 1.6 : 1.3;
+    const ranges = [range(px), range(py), range(pz)], shape = proportions(ranges.map((r) => r[1] - r[0])), far = narrow() ? 1.6 : 1.3;
     // Axes of a thin wall would crowd: its short side has none.
-    const ratio = (r) => Math.max(.02, 1.4 * (r[1] - r[0]) / size), shown = (r) => ratio(r) > .15;
+    const ratio = (k) => Math.max(.02, 1.4 * shape.lengths[k]), shown = (k) => ratio(k) > .15;
     return {
       traces: [{
         type: 'mesh3d', x: px, y: py, z: pz, i: corners[0], j: corners[1], k: corners[2], intensity: values, intensitymode: 'cell', cmin: 0, cmax: most,
@@ -148,14 +159,14 @@ function wearMapFigure(map, arrays) {
       }],
       layout: {
         margin: { l: 0, r: 0, t: 8, b: narrow() ? 50 : 8 }, uirevision: wall.name, dragmode: 'orbit',
-        scene: { uirevision: wall.name, dragmode: 'orbit', aspectmode: 'manual', aspectratio: { x: ratio(ranges[0]), y: ratio(ranges[1]), z: ratio(ranges[2]) },
+        scene: { uirevision: wall.name, dragmode: 'orbit', aspectmode: 'manual', aspectratio: { x: ratio(0), y: ratio(1), z: ratio(2) },
                  camera: { eye: { x: .9 * far, y: -1.35 * far, z: 1.0 * far }, center: { x: 0, y: 0, z: -.1 } },
-                 xaxis: sceneAxis('x [mm]', { range: ranges[0], visible: shown(ranges[0]) }), yaxis: sceneAxis('y [mm]', { range: ranges[1], nticks: 4, visible: shown(ranges[1]) }),
-                 zaxis: sceneAxis('z [mm]', { range: ranges[2], visible: shown(ranges[2]) }) },
+                 xaxis: sceneAxis('x [mm]', { range: ranges[0], visible: shown(0) }), yaxis: sceneAxis('y [mm]', { range: ranges[1], nticks: 4, visible: shown(1) }),
+                 zaxis: sceneAxis('z [mm]', { range: ranges[2], visible: shown(2) }) },
       },
       buttons: ['zoom3d', 'pan3d', 'orbitRotation', 'resetCameraDefault3d'],
       caption: `'${wall.name}' in its last shape, ${triangles < wall.mesh_triangles ? `the ${count(triangles)} of its ${count(wall.mesh_triangles)} triangles under the greatest pressure` : `${count(triangles)} triangles`}. `
-             + `Most on one of them: ${digits(most)} ${quantity.title.match(/\[(.*)\]$/)[1].replace('-', '')}`.trimEnd() + `. Drag to turn, ${narrow() ? 'pinch' : 'scroll'} to zoom.`,
+             + `Most on one of them: ${digits(most)} ${quantity.title.match(/\[(.*)\]$/)[1].replace('-', '')}`.trimEnd() + `.${shape.stretched ? kStretched : ''} Drag to turn, ${narrow() ? 'pinch' : 'scroll'} to zoom.`,
     };
   }, 'wall-maps.csv', () => {
     let text = `wall,${map.quantities.map(({ key }) => key).join(',')},x_mm,y_mm,z_mm\n`;
@@ -171,6 +182,7 @@ function wearMapFigure(map, arrays) {
 
 // ---------------------------------------------------------------- volume
 function volumeFigure({ revolutions }, { measured }) {
+  if (!$('#fig-volume')) return;
   figure('fig-volume', () => {
     if (!revolutions.rows) return { empty: 'No revolution was completed, so there is no volume to plot.' };
     const along = abscissa(revolutions), mode = revolutions.rows <= 60 ? 'lines+markers' : 'lines';

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/case_texts.h"
 #include "support/says.h"
 
 namespace abradem::test {
@@ -71,6 +72,28 @@ TEST(Check, ReportsEveryProblemWithItsPlace) {
   EXPECT_TRUE(contains(outcome.err, "bad.toml:4:7: error: 'end': expected a time"));
   EXPECT_TRUE(contains(outcome.err, "the case has no wall"));
   EXPECT_TRUE(contains(outcome.err, "bad.toml: 5 errors"));
+}
+
+TEST(Check, LooksIntoTheTablesOfParticles) {
+  const ScratchFolder folder;
+  write_file(folder.path() / "sizes.csv", "radius_mm;share\r\n2;0,5\r\n");
+  write_file(folder.path() / "case.toml", std::string(kGlass) + R"([wall.floor]
+material = "glass"
+mesh = { shape = "plane" }
+[insertion.feed]
+material = "glass"
+number = 3
+size = { kind = "table", file = "sizes.csv" }
+volume = { low = [0, 0, 0], high = [1, 1, 1] }
+[run]
+end = "1 s"
+)");
+  const Outcome bad = run_program("check case.toml", folder.path());
+  EXPECT_EQ(bad.exit_code, 5) << bad.err;
+  EXPECT_TRUE(contains(
+      bad.err, "sizes.csv:2:3: column 'share': '0,5' is not a number; expected digits with a decimal point"));
+  write_file(folder.path() / "sizes.csv", "radius_mm;share\r\n2;0.5\r\n");
+  EXPECT_EQ(run_program("check case.toml", folder.path()).exit_code, 0);
 }
 
 TEST(Check, WhatIsNoCaseFileEndsWithTwo) {
@@ -160,6 +183,15 @@ TEST(Run, NeverTouchesAFolderThatHoldsNoRun) {
   EXPECT_EQ(read_file(folder.path() / "report.html"), "mine");
 }
 
+/// What is left of a run that was killed before its first file was whole is nothing.
+TEST(Run, TakesAFolderInWhichOneWasKilledAtItsVeryBeginning) {
+  const ScratchFolder folder;
+  write_file(folder.path() / ".abradem-write-test", "");
+  write_file(folder.path() / "case.resolved.toml.123.tmp", "schema");
+  EXPECT_EQ(run_program(kShortRun + " -o .", folder.path()).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "case.resolved.toml.123.tmp"));
+}
+
 TEST(Run, AFolderThatCannotBeUsedIsNamed) {
   const ScratchFolder folder;
   write_file(folder.path() / "file", "");
@@ -180,6 +212,11 @@ TEST(Run, AFolderThatCannotBeUsedIsNamed) {
 TEST(New, WritesTheTemplatesThatAreInTheTree) {
   EXPECT_EQ(run_program("new pin-on-disc").out, read_file(kExample));
   EXPECT_EQ(run_program("new plate").out, read_file(ABRADEM_SOURCE_DIR "/cases/templates/plate.toml"));
+  for (const char* name : {"hopper", "angle-of-repose", "templates/chute"}) {
+    const std::string file = std::string(ABRADEM_SOURCE_DIR "/cases/") + name + ".toml";
+    EXPECT_EQ(run_program("new " + std::filesystem::path(name).filename().string()).out, read_file(file));
+    EXPECT_EQ(run_program("check " + file).exit_code, 0) << name;
+  }
   EXPECT_EQ(run_program("new laboratory").out, read_file(ABRADEM_SOURCE_DIR "/cases/laboratory.toml"));
 }
 

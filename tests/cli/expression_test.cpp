@@ -8,6 +8,7 @@
 
 #include "abradem/io/csv.h"
 #include "cli/program.h"
+#include "support/case_texts.h"
 #include "support/says.h"
 
 namespace abradem::test {
@@ -16,21 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// The transfer chute with the wear given here; its sides a plane.
+/// The transfer chute with the wear given here, and a plane that it wears too.
 void write_chute(const fs::path& file, const std::string& wear) {
-  std::string text = read_file(ABRADEM_SOURCE_DIR "/cases/transfer-chute.toml");
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-  };
-  replace("wear_coefficient = \"1e-7 1/Pa\"", wear);
-  for (const char* mesh : {"meshes/chute-liner.stl", "meshes/chute-sides.stl"})
-    replace(mesh, std::string(ABRADEM_SOURCE_DIR "/cases/") + mesh);
-  text +=
-      "\n[wall.floor]\nmaterial = \"steel\"\n"
-      "mesh = { shape = \"plane\", position = [0, 0, \"30 mm\"], normal = [0.2, 0, 1] }\n";
-  write_file(file, text);
+  write_file(file, transfer_chute(wear) +
+                       "\n[wall.floor]\nmaterial = \"steel\"\n"
+                       "mesh = { shape = \"plane\", position = [0, 0, \"30 mm\"], normal = [0.2, 0, 1] }\n");
 }
 Outcome run(const fs::path& folder, const std::string& name, const std::string& rest = "") {
   return run_program("run " + name + ".toml -o " + name +

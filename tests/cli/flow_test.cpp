@@ -6,6 +6,8 @@
 
 #include "abradem/io/csv.h"
 #include "cli/program.h"
+#include "support/case_texts.h"
+#include "support/says.h"
 
 namespace abradem::test {
 namespace {
@@ -15,15 +17,7 @@ void run_flight(const std::filesystem::path& folder) {
   write_file(folder / "places.csv",
              "x_mm,y_mm,z_mm,radius_mm,velocity_x_m_per_s,velocity_y_m_per_s,velocity_z_m_per_s\n"
              "0,0,1,0.5,0.1,0,0\n0,8,3,0.5,0.3,0,0\n0.5,-8,3,0.5,0.1,0.04,0\n-9,0,3,0.5,0,9,0\n");
-  write_file(folder / "flight.toml", R"(schema = 1
-[material.glass]
-density = 2500
-shear_modulus = "10 MPa"
-poisson_ratio = 0.25
-[contact."glass/glass"]
-restitution = 0.5
-static_friction = 0.5
-[wall.floor]
+  write_file(folder / "flight.toml", std::string(kGlass) + R"([wall.floor]
 material = "glass"
 mesh = { shape = "plane", position = [0, 0, "-50 mm"] }
 [insertion.some]
@@ -60,6 +54,34 @@ TEST(Flow, IsTheMeanOfTheFramesAskedFor) {
   // Without a direction to average along, what lies 8 mm beside the line does not count.
   ASSERT_EQ(run_program(line + " -o near.csv --quiet", scratch.path()).exit_code, 0);
   EXPECT_DOUBLE_EQ(io::read_csv(scratch.path() / "near.csv").column("particles")[1], 0.0);
+}
+
+/// The page draws what the table has, and measured points beside it; a table of flow itself is one.
+TEST(Flow, DrawsAPageWithMeasuredPoints) {
+  const ScratchFolder scratch;
+  run_flight(scratch.path());
+  const std::string line =
+      "flow out --from '0,0,0 mm' --to '0, 0, 6 mm' --bins 3 --reach '2 mm' --average-along 0,1,0 ";
+  write_file(scratch.path() / "points.csv", "# seen\ndistance [mm];component [mm/s]\n1;120\n3;150\n");
+  const Outcome flow = run_program(
+      line + "--component 3,4,0 -o flow.csv --page flow.html --measured points.csv", scratch.path());
+  ASSERT_EQ(flow.exit_code, 0) << flow.err;
+  EXPECT_TRUE(contains(flow.err, "page: flow.html"));
+  const std::string page = read_file(scratch.path() / "flow.html");
+  EXPECT_TRUE(says(page, {"fig-flow-velocity", "fig-flow-particles", "no further from it than 2 mm",
+                          "over 5 frames from 0 to 0.004 s", "in the direction (3,4,0) [m/s]"}));
+  const Outcome again = run_program(line + "--page again.html --measured flow.csv --quiet", scratch.path());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.err, "");
+  const auto refused = [&](const std::string& options, int code, const std::string& words) {
+    const Outcome out = run_program(line + options, scratch.path());
+    EXPECT_EQ(out.exit_code, code) << options;
+    EXPECT_TRUE(contains(out.err, words));
+  };
+  refused("--measured points.csv", 2, "--page");
+  refused("--page p.html --measured points.csv", 2, "no column velocity_x, velocity_y or velocity_z");
+  refused("--page p.html --measured none.csv", 5, "none.csv");
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "p.html"));
 }
 
 TEST(Flow, SaysWhatItCannotUse) {

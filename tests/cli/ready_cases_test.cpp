@@ -3,10 +3,13 @@
 // in is accounted for, and where a wall wears the ledger closes.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "abradem/io/csv.h"
+#include "abradem/io/vtp_read.h"
 #include "cli/program.h"
 
 namespace abradem::test {
@@ -54,6 +57,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "--set run.settle='0.13 s' --set run.end='1 h' --set output.every='0.5 h' --set "
                   "'wear.\"ore/steel\".acceleration=1e5'",
                   true},
+        ReadyCase{"templates/chute", "--set run.end='0.14 s'", true},
         ReadyCase{"rotating-drum",
                   "--set insertion.charge.number=60 --set run.end='0.07 rev' --set output.every='0.01 rev'",
                   true},
@@ -65,6 +69,26 @@ INSTANTIATE_TEST_SUITE_P(
                   true},
         ReadyCase{"angle-of-repose", "--set run.end='0.12 s' --set output.every='20 ms'"},
         ReadyCase{"pebbles", "--set run.end='0.1 s' --set output.every='20 ms'"}));
+
+/// Particles stand in the world, the drum in its own frame: its frames say how far it has been carried.
+TEST(RotatingDrum, FramesSayWhereTheWallIs) {
+  const ScratchFolder scratch;
+  const Outcome outcome = run_program("run " ABRADEM_SOURCE_DIR
+                                      "/cases/rotating-drum.toml --threads 1 --no-report --quiet -o out "
+                                      "--set insertion.charge.number=20 --set "
+                                      "run.end='0.02 rev' --set output.every='0.01 rev'",
+                                      scratch.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const io::VtpSurface drum = io::read_vtp(scratch.path() / "out/vtk/drum_0002.vtp");
+  const std::vector<double>& moved = drum.point_data.at("moved_m").values;
+  const double a = 0.02 * 2.0 * std::numbers::pi;
+  for (std::size_t k = 0; k < drum.mesh.vertices.size(); ++k) {
+    const Vec3& v = drum.mesh.vertices[k];  // turned about y
+    EXPECT_NEAR(v.x + moved[3 * k], std::cos(a) * v.x + std::sin(a) * v.z, 1e-9);
+    EXPECT_NEAR(v.y + moved[3 * k + 1], v.y, 1e-12);
+    EXPECT_NEAR(v.z + moved[3 * k + 2], std::cos(a) * v.z - std::sin(a) * v.x, 1e-9);
+  }
+}
 
 /// Next to nothing is worn: what rounding makes of it is no fault, and nobody is warned.
 TEST(DrumProfile, LedgerOfNextToNothingCloses) {

@@ -15,6 +15,7 @@
 #include "abradem/core/random.h"
 #include "abradem/io/csv.h"
 #include "cli/program.h"
+#include "support/case_texts.h"
 
 namespace abradem::test {
 namespace {
@@ -218,15 +219,7 @@ TEST(Resume, GoesOnPastTheEnd) {
 void write_feed(const fs::path& folder) {
   write_file(folder / "sizes.csv", "radius_mm,share\n0.8,1\n1.1,2\n");
   write_file(folder / "places.csv", "x_mm,y_mm,z_mm,radius_mm\n0,0,1.4,1.5\n4,1,2,1\n-4,2,1.2,1.2\n");
-  write_file(folder / "feed.toml", R"(schema = 1
-[material.glass]
-density = 2500
-shear_modulus = "10 MPa"
-poisson_ratio = 0.25
-[contact."glass/glass"]
-restitution = 0.5
-static_friction = 0.5
-[wear."glass/glass"]
+  write_file(folder / "feed.toml", std::string(kGlass) + R"([wear."glass/glass"]
 wear_coefficient = "1e-10 1/Pa"
 [wall.plate]
 material = "glass"
@@ -279,18 +272,14 @@ TEST(Resume, OfAWallOfCombinedMotionsGoesOnWithoutItsFiles) {
   write_feed(scratch.path());
   write_file(scratch.path() / "ride.csv",
              "time_s,x_mm,z_mm,angle_deg\n0,0,0,0\n0.004,1,0.2,1\n0.009,0,0,0\n");
-  std::string text = read_file(scratch.path() / "feed.toml");
-  const std::string shaken =
-      "motion = { kind = \"oscillation\", amplitude = [\"1 mm\", 0, 0], frequency = \"50 Hz\" }";
-  const std::size_t at = text.find(shaken);
-  ASSERT_NE(at, std::string::npos);
-  text.replace(at, shaken.size(),
+  std::string text =
+      replaced(read_file(scratch.path() / "feed.toml"),
+               "motion = { kind = \"oscillation\", amplitude = [\"1 mm\", 0, 0], frequency = \"50 Hz\" }",
                "motion = [{ kind = \"rotation\", rate = \"180 deg/s\" },\n"
                "          { kind = \"table\", axis = [0, 1, 0], file = \"ride.csv\", after = \"repeat\" },\n"
                "          { kind = \"oscillation\", amplitude = [\"1 mm\", 0, 0], frequency = \"50 Hz\" }]");
-  const std::string plate = "shape = \"plate\", length = \"20 mm\", width = \"20 mm\", size = \"2 mm\"";
-  ASSERT_NE(text.find(plate), std::string::npos);
-  text.replace(text.find(plate), plate.size(), "file = \"plate.obj\", unit = \"mm\"");
+  text = replaced(text, "shape = \"plate\", length = \"20 mm\", width = \"20 mm\", size = \"2 mm\"",
+                  "file = \"plate.obj\", unit = \"mm\"");
   write_file(scratch.path() / "plate.obj", "v -10 -10 0\nv 10 -10 0\nv 10 10 0\nv -10 10 0\nf 1 2 3 4\n");
   write_file(scratch.path() / "feed.toml", text);
   const std::string run = "run feed.toml --quiet --no-report --threads 1 --set output.every='10 ms'";

@@ -12,6 +12,7 @@
 
 #include "abradem/io/csv.h"
 #include "cli/program.h"
+#include "support/case_texts.h"
 #include "support/says.h"
 
 namespace abradem::test {
@@ -22,17 +23,9 @@ using nlohmann::json;
 
 /// The transfer chute on a rigid liner with the wear given here, and a region.
 void run_chute(const fs::path& folder, const std::string& name, const std::string& wear) {
-  std::string text = read_file(ABRADEM_SOURCE_DIR "/cases/transfer-chute.toml");
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-  };
-  replace("wear_coefficient = \"1e-7 1/Pa\"", wear);
-  replace("poisson_ratio = 0.30", "poisson_ratio = 0.30\nhardness = \"143 HV\"");
-  replace("deformation = \"conserving\"", "deformation = \"none\"");
-  for (const char* mesh : {"meshes/chute-liner.stl", "meshes/chute-sides.stl"})
-    replace(mesh, std::string(ABRADEM_SOURCE_DIR "/cases/") + mesh);
+  std::string text = transfer_chute(wear);
+  text = replaced(text, "poisson_ratio = 0.30", "poisson_ratio = 0.30\nhardness = \"143 HV\"");
+  text = replaced(text, "deformation = \"conserving\"", "deformation = \"none\"");
   text +=
       "\n[region.inlet]\nwall = \"liner\"\nlow = [\"-200 mm\", \"-200 mm\", \"-200 mm\"]\n"
       "high = [\"-20 mm\", \"200 mm\", \"200 mm\"]\n";

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "support/grains.h"
+#include "support/reference_data.h"
 
 namespace abradem::test {
 namespace {
@@ -28,7 +29,8 @@ const Floor kFloors[]{{"plane"},
                       {"auto", true, ContactRule::automatic, 0.8e-3}};
 
 /// One sphere above or on a floor of another material.
-simulation::Setup scene(const Floor& floor, const ContactSetup& pair, const Vec3& velocity, double height) {
+simulation::Setup scene(const Floor& floor, const ContactSetup& pair, const Vec3& velocity, double height,
+                        const Vec3& spin = {}) {
   simulation::Setup setup = grains(1.0, 0.0, 0.0);
   setup.materials.push_back({"wall", 7800.0, 1e8, 0.3, {}});
   setup.contacts.push_back(pair);
@@ -42,7 +44,7 @@ simulation::Setup scene(const Floor& floor, const ContactSetup& pair, const Vec3
     setup.walls[0].mesh.size = floor.size;
     setup.walls[0].contact = floor.rule;
   }
-  setup.insertions[0].placed = {{{0.3e-3, 0.2e-3, R + height}, R, velocity}};
+  setup.insertions[0].placed = {{{0.3e-3, 0.2e-3, R + height}, R, velocity, spin}};
   setup.run.time_step = {4e-6, false};
   return setup;
 }
@@ -63,6 +65,7 @@ double difference(simulation::Setup setup, double end, double speed) {
   named.radius = R;
   named.position = setup.insertions[0].placed[0].position;
   named.velocity = setup.insertions[0].placed[0].velocity;
+  named.spin = setup.insertions[0].placed[0].spin;
   setup.particles = {named};
   setup.insertions.clear();
   const Simulation one = run_to_end(setup);
@@ -87,6 +90,41 @@ TEST(InNumbers, ImpactsAreThoseOfASphereWithAName) {
     EXPECT_LT(worst, floor.rule == ContactRule::patch ? 1e-6 : 1e-9) << floor.name;
     RecordProperty(floor.name, std::to_string(1e12 * worst) + "e-12");
   }
+}
+
+/// As Chung & Ooi's test 6, also obliquely, and about the normal, which torsion alone can feel.
+TEST(InNumbers, ImpactsWithSpinAreThoseOfASphereWithAName) {
+  for (const Floor& floor : kFloors) {
+    double worst = 0.0;
+    for (const Torsion torsion : {Torsion::none, Torsion::marshall})
+      for (const RollingModel model : {RollingModel::constant, RollingModel::epsd2})
+        for (const Vec3& spin : {Vec3{0, 80, 0}, Vec3{0, 0, 120}, Vec3{30, -60, 90}})
+          for (const double v_t : {0.0, 0.2}) {
+            ContactSetup pair{"", "", 0.5, 0.3, 0.05};
+            pair.torsion = torsion;
+            pair.rolling_model = model;
+            worst = std::max(worst, difference(scene(floor, pair, {v_t, 0.0, -0.3}, 10e-6, spin), 6e-3, 0.3));
+          }
+    EXPECT_LT(worst, floor.rule == ContactRule::patch ? 1e-6 : 1e-9) << floor.name;
+    RecordProperty(floor.name, std::to_string(1e12 * worst) + "e-12");
+  }
+}
+
+/// Chung & Ooi's test 6: gross slip gives v_t = mu (1 + e) v_n whatever the spin.
+TEST(InNumbers, SpinningSpheresLeaveInGrossSlipAsLawsOfImpactSay) {
+  constexpr double v_n = 0.2, e = 0.5, mu = 0.4;
+  WorstError worst("gross_slip");
+  for (const Floor& floor : kFloors)
+    for (const double spin : {175.0, 280.0, 350.0}) {  // with the source's ratios of spin R to v_n
+      simulation::Setup setup = scene(floor, {"", "", e, mu, 0.0}, {0.0, 0.0, -v_n}, 10e-6, {0.0, spin, 0.0});
+      Simulation run(setup);
+      while (run.time() < 6e-3) run.step();
+      const contact::SphereRow& s = run.bulk()->spheres().row[0];
+      ASSERT_GT(s.velocity().z, 0.0);
+      EXPECT_LT(worst.note(relative_error(s.velocity().x, mu * (1.0 + e) * v_n)), 0.01) << floor.name;
+      EXPECT_LT(worst.note(relative_error(s.spin().y, spin - 2.5 * mu * (1.0 + e) * v_n / R)), 0.01)
+          << floor.name;
+    }
 }
 
 TEST(InNumbers, SlidesAndRollsAreThoseOfASphereWithAName) {

@@ -143,6 +143,37 @@ TEST(Clumps, FreeFlightKeepsAngularMomentum) {
   }
 }
 
+/// With the spin it is given, at whatever turn, and a second one with its own from the file's columns.
+TEST(Clumps, ComeInWithTheSpinAsked) {
+  simulation::Setup setup = clumps(rough_grain(), 1.0, 0.0, 0.0);
+  setup.walls = {plane("floor", {0, 0, -1}, {0, 0, 1})};
+  const Vec3 spin{30, -20, 50}, own{0, 0, 70};
+  setup.insertions[0].size.radius = R;
+  setup.insertions[0].number = 1;
+  setup.insertions[0].volume.high = {0.02, 0.02, 0.02};
+  setup.insertions[0].spin = spin;
+  setup.insertions.push_back(setup.insertions[0]);
+  setup.insertions[1].placed = {{{0.05, 0, 0}, R, {0.1, 0, 0}, own}};
+  Simulation run(setup);
+  const auto& all = run.bulk()->clumps().clumps();
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_LT(norm(all[0].spin() - spin), 1e-12 * norm(spin));
+  EXPECT_LT(norm(all[1].spin() - own), 1e-12 * norm(own));
+  const Vec3 L[]{all[0].momentum, all[1].momentum};
+  for (const bool later : {false, true}) {
+    const contact::Spheres& spheres = run.bulk()->spheres();
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      const Clump& c = all[static_cast<std::size_t>(spheres.clump[i])];
+      const Vec3 arm = spheres.row[i].position() - c.position;
+      EXPECT_LT(norm(spheres.row[i].velocity() - c.velocity - cross(c.spin(), arm)), 1e-12);
+      EXPECT_LT(norm(spheres.row[i].spin() - c.spin()), 1e-12 * norm(spin));
+    }
+    if (!later)
+      for (int k = 0; k < 500; ++k) run.step();
+  }
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(all[k].momentum, L[k]);
+}
+
 /// A dumbbell that falls flat-footed on a smooth plane: one impulse J = (1 + e') m' v along the normal, with
 /// 1/m' = 1/M + l^2/I for its lever l. The damper is made for the whole mass, so that the restitution it
 /// gives is that of beta' = beta sqrt(M/m').

@@ -67,7 +67,7 @@ struct Scene {
       setup.particles.push_back(other);
     }
     if (who == Who::plane || who == Who::mesh) {
-      setup.insertions[0].placed = {{sphere.position, R, sphere.velocity}};
+      setup.insertions[0].placed = {{sphere.position, R, sphere.velocity, sphere.spin}};
       setup.particles.clear();
     } else {
       setup.insertions.clear();
@@ -278,9 +278,9 @@ TEST(RollingSpring, RollsOnWhereTheSlopeIsSteeper) {
 /// spring S a^2 / 2.
 TEST(Torsion, StopsASpinAboutTheNormal) {
   constexpr double mu = 0.5, dt = 4e-6;
-  constexpr Who who = Who::named;
   WorstError worst("spin"), period("period");
-  {
+  for (const Who who : kOnFloor) {
+    SCOPED_TRACE(name_of(who));
     material::PairProperties pair;
     pair.E_eff = effective_modulus();
     const double a = std::sqrt(R * contact::hertz_overlap(pair, R, m * g));

@@ -2,14 +2,17 @@
 // The flow in a rotating drum. docs/verification/bulk.md#the-drum
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "abradem/analysis/flow_profile.h"
 #include "abradem/io/case_file.h"
 #include "abradem/io/csv.h"
+#include "abradem/io/measured_table.h"
 #include "abradem/io/mesh_files.h"
 #include "support/grains.h"
 #include "support/reference_data.h"
@@ -17,6 +20,7 @@
 namespace abradem::test {
 namespace {
 
+using namespace std::string_view_literals;
 constexpr double kAngle = 27.0 * std::numbers::pi / 180.0, kRadius = 0.12, kRate = 1.214, kBead = 1.5e-3;
 const Vec3 kUp{std::sin(kAngle), 0.0, std::cos(kAngle)}, kDown{std::cos(kAngle), 0.0, -std::sin(kAngle)};
 
@@ -83,10 +87,13 @@ TEST(Drum, BeadsFlowAsMeasured) {
   }
   const DepthProfile profile(flow);
   double squares = 0.0, n = 0.0;
-  for (const ReferenceRow& row : reference_rows("alizadeh2013_drum_profile.csv")) {
-    const double y = std::stod(row.at("y_m"));
+  const io::MeasuredTable measured(ABRADEM_SOURCE_DIR "/cases/data/drum-profile.csv");
+  const auto distance = measured.quantities(std::array{"distance"sv}, {.length = 1}),
+             velocity = measured.quantities(std::array{"component"sv}, {.length = 1, .time = -1});
+  for (std::size_t r = 0; r < distance.size(); ++r) {
+    const double y = distance[r] - kRadius;
     if (y > profile.surface()) continue;
-    squares += std::pow(profile.velocity(y) + std::stod(row.at("velocity_m_per_s")), 2);
+    squares += std::pow(profile.velocity(y) - velocity[r], 2);
     n += 1.0;
   }
   const double rms = std::sqrt(squares / n);

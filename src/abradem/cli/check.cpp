@@ -12,6 +12,7 @@
 #include "abradem/core/error.h"
 #include "abradem/core/units.h"
 #include "abradem/io/case_file.h"
+#include "abradem/io/insertion_files.h"
 
 namespace abradem::cli {
 
@@ -36,8 +37,9 @@ int check_command(const CheckArguments& arguments) {
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (suffix == ".stl" || suffix == ".obj" || suffix == ".ply")
     return check_mesh_command(arguments.path, unit_of(arguments.unit), arguments.json);
-  const io::Case read = io::load_case(arguments.path, arguments.overrides);
+  io::Case read = io::load_case(arguments.path, arguments.overrides);
   for (const std::string& note : read.notes) print_message(note);
+  io::read_insertion_files(read.setup);  // what they say counts too
   print_message(fmt::format("{}: no errors\n{}", arguments.path, summarize(read.setup)));
   return static_cast<int>(ExitCode::ok);
 }

@@ -72,12 +72,14 @@ struct AnalyseArguments {
 int analyse_command(const AnalyseArguments& arguments);
 
 struct FlowArguments {
-  std::string folder;           ///< of a run with frames
-  std::string from, to, reach;  ///< the line, with units
-  std::string averaged;         ///< direction along which distance does not count; empty: none
-  std::string component;        ///< direction of an own column; empty: none
-  std::string begin, end;       ///< times of the frames; empty: the first, the last
-  std::string output;           ///< table (.csv) to write; empty: none
+  std::string folder;                 ///< of a run with frames
+  std::string from, to, reach;        ///< the line, with units
+  std::string averaged;               ///< direction along which distance does not count; empty: none
+  std::string component;              ///< direction of an own column; empty: none
+  std::string begin, end;             ///< times of the frames; empty: the first, the last
+  std::string output;                 ///< table (.csv) to write; empty: none
+  std::string page;                   ///< page (.html) to write; empty: none
+  std::vector<std::string> measured;  ///< tables of measured velocities to draw beside them
   int bins = 20;
   bool quiet = false;
 };

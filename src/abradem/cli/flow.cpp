@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 #include <vector>
 
@@ -13,8 +15,12 @@
 #include "abradem/cli/quantity.h"
 #include "abradem/core/error.h"
 #include "abradem/core/units.h"
+#include "abradem/io/atomic_file.h"
+#include "abradem/io/case_file.h"
 #include "abradem/io/csv.h"
+#include "abradem/io/measured_table.h"
 #include "abradem/io/vtp_read.h"
+#include "abradem/report/flow_page.h"
 
 namespace abradem::cli {
 namespace {
@@ -91,6 +97,60 @@ void add_frame(analysis::FlowProfile& profile, const fs::path& file) {
   profile.add(centres, velocities);
 }
 
+std::string title_of(const fs::path& folder) {
+  const fs::path file = folder / "case.resolved.toml";
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw IoError(fmt::format("{}: no such file; expected the output folder of a run", file.string()));
+  return io::parse_case(std::string(std::istreambuf_iterator<char>(stream), {}), file.string(), folder)
+      .setup.title;
+}
+
+/// Velocities by distance, in the direction shown.
+void read_measured(const fs::path& file, report::FlowSummary& summary) {
+  using namespace std::string_view_literals;
+  constexpr core::Dimension kSpeed{.length = 1, .time = -1};
+  const io::MeasuredTable table(file);
+  const std::vector<double> distance = table.quantities(std::array{"distance"sv}, kLength);
+  const auto add = [&](std::string_view column, const std::string& name) {
+    summary.measured.push_back({fmt::format("{}{}", file.filename().string(), name), distance,
+                                table.quantities(std::array{column}, kSpeed, true)});
+  };
+  if (!summary.component.empty()) {
+    add("component", "");
+    return;
+  }
+  std::size_t found = 0;
+  for (const std::string_view axis : {"x"sv, "y"sv, "z"sv}) {
+    const std::string column = fmt::format("velocity_{}", axis);
+    if (!table.find(std::array{std::string_view(column)})) continue;
+    add(column, fmt::format(", {}", axis));
+    ++found;
+  }
+  if (found == 0)
+    throw InputError(
+        fmt::format("{}: no column velocity_x, velocity_y or velocity_z; with --component it is component",
+                    file.string()));
+}
+
+report::FlowSummary summary_of(const FlowArguments& a, const analysis::FlowProfile& profile,
+                               const Vec3& component, double first, double last) {
+  report::FlowSummary s;
+  s.title = title_of(a.folder);
+  s.sentence = fmt::format(
+      "Mean velocities along the line from ({}) to ({}), over {} frames from {:.6g} to {:.6g} s, of "
+      "particles "
+      "no further from it than {}{}.",
+      a.from, a.to, profile.moments(), first, last, a.reach,
+      a.averaged.empty() ? "" : fmt::format(", all along ({})", a.averaged));
+  if (!a.component.empty()) s.component = fmt::format("in the direction ({})", a.component);
+  s.direction = component;
+  s.moments = static_cast<double>(profile.moments());
+  s.bins = profile.bins();
+  for (const std::string& file : a.measured) read_measured(file, s);
+  return s;
+}
+
 const std::vector<std::string> kColumns{"distance_mm",
                                         "x_mm",
                                         "y_mm",
@@ -106,7 +166,12 @@ const std::vector<std::string> kColumns{"distance_mm",
 int flow_command(const FlowArguments& a) {
   analysis::FlowProfile profile(line_of(a));
   const Vec3 component = a.component.empty() ? Vec3{} : normalized(vector(a.component, "--component", {}));
-  for (const io::SeriesFrame& frame : frames_of(a)) add_frame(profile, frame.file);
+  const std::vector<io::SeriesFrame> frames = frames_of(a);
+  for (const io::SeriesFrame& frame : frames) add_frame(profile, frame.file);
+  std::string page;
+  if (!a.page.empty())
+    page = report::page_html(
+        report::flow_page(summary_of(a, profile, component, frames.front().time, frames.back().time)));
 
   std::vector<std::string> columns = kColumns;
   if (!a.component.empty()) columns.emplace_back("component_m_per_s");
@@ -122,7 +187,9 @@ int flow_command(const FlowArguments& a) {
     for (const std::vector<double>& row : rows) table.row(row);
     table.close();
   }
+  if (!a.page.empty()) io::write_file_atomically(a.page, page);
   if (!a.quiet) print_message(fmt::format("{} frames", profile.moments()));
+  if (!a.quiet && !a.page.empty()) print_message(fmt::format("page: {}", a.page));
   std::string text;
   const std::vector<std::size_t> shown =
       a.component.empty() ? std::vector<std::size_t>{0, 4, 5, 6, 7, 8} : std::vector<std::size_t>{0, 4, 9, 8};

@@ -195,6 +195,13 @@ void declare_flow(CLI::App& app, cli::FlowArguments& a) {
       ->type_name("TIME");
   flow->add_option("--end", a.end, "Last time (default: the last frame)")->type_name("TIME");
   flow->add_option("-o,--output", a.output, "Table to write (.csv)")->type_name("FILE");
+  CLI::Option* page =
+      flow->add_option("--page", a.page, "Page with figures to write (.html)")->type_name("FILE");
+  flow->add_option("--measured", a.measured,
+                   "Table of measured velocities by distance to draw beside them; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->needs(page);
   flow->add_flag("--quiet", a.quiet, "No messages, only warnings and errors");
 }
 

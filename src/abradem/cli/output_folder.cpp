@@ -31,9 +31,23 @@ constexpr std::array kWritten{"case.resolved.toml", "case.toml", "run.json", "ru
   throw IoError(fmt::format("{} '{}': {}", what, path.string(), why));
 }
 
-/// Not part of a run; left behind only by a power cut between two lines below.
+constexpr const char* kProbe = ".abradem-write-test";
+
+/// Is there nothing but what a run leaves that is killed before its first file is whole?
+bool holds_only_a_beginning(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name != kProbe &&
+        !(name.ends_with(".tmp") && (name.starts_with(kProbe) || name.starts_with(kWritten.front()))))
+      return false;
+  }
+  return !error;
+}
+
+/// Not part of a run; left behind only by a kill or a power cut between two lines below.
 void prove_writable(const fs::path& folder) {
-  const fs::path probe = folder / ".abradem-write-test";
+  const fs::path probe = folder / kProbe;
   io::write_file_atomically(probe, "");
   std::error_code ignored;
   fs::remove(probe, ignored);
@@ -80,8 +94,12 @@ void OutputFolder::create() {
 
 void OutputFolder::take_over(bool force) {
   std::error_code error;
-  const bool empty = fs::is_empty(folder_, error);
+  bool empty = fs::is_empty(folder_, error);
   if (error) cannot("cannot read the output folder", folder_, error.message());
+  if (!empty && holds_only_a_beginning(folder_)) {
+    for (const auto& entry : fs::directory_iterator(folder_, error)) fs::remove(entry.path(), error);
+    empty = true;
+  }
   if (!empty && !fs::exists(folder_ / kWritten.front(), error))
     throw InputError(fmt::format(
         "output folder '{}' holds files that are not of a run; choose another with -o", folder_.string()));

@@ -165,8 +165,13 @@ void check_expression(const Setup& setup, const WearSetup& w, analysis::LawChang
                     pair_of(w), why));
   };
   if (!is->proportional_to_step()) refuse("its volume depends on the time step");
-  if (is->names(Symbol::dt)) refuse("contacts that do not slide are in no class, and dt counts there too");
-  if (is->names(Symbol::normal_work)) refuse("classes of contacts have no normal_work");
+  if (is->names(Symbol::dt))
+    refuse("contacts that do not slide are in no class, and dt counts there too; the way slid is slip");
+  if (is->names(Symbol::normal_work))
+    refuse(
+        "classes of contacts have no normal_work; law impact_energy with normal_energy_coefficient wears by "
+        "it, "
+        "exactly");
   const bool sized =
       std::ranges::any_of(std::array{Symbol::a, Symbol::p_mean, Symbol::p_max, Symbol::m, Symbol::R},
                           [&](Symbol s) { return is->names(s); });

@@ -38,6 +38,8 @@ constexpr std::array kUnits{
     NamedUnit{"µm", {1, 1, -6, kLength}, "micrometre (micro sign)"},
     NamedUnit{"μm", {1, 1, -6, kLength}, "micrometre (Greek mu)"},
     NamedUnit{"nm", {1, 1, -9, kLength}, "nanometre"},
+    NamedUnit{"in", {0.0254, 1, 0, kLength}, "inch"},
+    NamedUnit{"ft", {0.3048, 1, 0, kLength}, "foot"},
     NamedUnit{"kg", {1, 1, 0, kMass}, "kilogram"},
     NamedUnit{"g", {1, 1, -3, kMass}, "gram"},
     NamedUnit{"mg", {1, 1, -6, kMass}, "milligram"},

@@ -2,6 +2,7 @@
 #include "abradem/geometry/closest_point.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace abradem::geometry {
 
@@ -56,6 +57,19 @@ ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3&
     return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), Feature::edge1};
   if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return {a + d2 / (d2 - d6) * ac, Feature::edge2};
   return {a + vb / sum * ab + vc / sum * ac, Feature::face};
+}
+
+std::optional<double> ray_meets(const Vec3& from, const Vec3& direction, const Vec3 (&v)[3]) noexcept {
+  const Vec3 normal = cross(v[1] - v[0], v[2] - v[0]);
+  const double slope = dot(normal, direction), size = dot(normal, normal);
+  if (std::abs(slope) < 1e-12 * std::sqrt(size)) return {};
+  const double t = dot(normal, v[0] - from) / slope;
+  const Vec3 hit = from + t * direction;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 &a = v[k], &b = v[(k + 1) % 3];
+    if (dot(cross(b - a, hit - a), normal) < -1e-9 * size) return {};
+  }
+  return t;
 }
 
 }  // namespace abradem::geometry

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "abradem/core/vec3.h"
 
@@ -26,6 +27,11 @@ struct ClosestPoint {
 /// [Ericson, Real-Time Collision Detection, 2005, Sec. 5.1.5]
 [[nodiscard]] ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b,
                                                      const Vec3& c) noexcept;
+
+/// Where the ray meets the plane of the triangle, in units of the direction, if that is inside the triangle;
+/// a hair of tolerance keeps a ray through a shared edge from slipping between its two triangles.
+[[nodiscard]] std::optional<double> ray_meets(const Vec3& from, const Vec3& direction,
+                                              const Vec3 (&v)[3]) noexcept;
 
 /// The point of segment a, b nearest to p, as the fraction of the way from a to b in [0, 1].
 [[nodiscard]] double closest_fraction_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) noexcept;

@@ -98,6 +98,9 @@ void Checker::check_contact_pairs() {
               fmt::format("this pair is already given as [{}]; the order of the names makes no difference",
                           path_of("contact", d.first + "/" + d.second)));
     }
+    if (c.law == ContactLaw::linear && c.cohesion == Cohesion::jkr)
+      error(path_of("contact", c.first + "/" + c.second) + ".cohesion",
+            "jkr is the adhesion of Hertz's contact; with law = \"linear\" take sjkr");
   }
   const auto& particles = setup_.particles;
   for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -202,6 +205,17 @@ bool Places::good(const std::string& path) const {
 void check_case(const Setup& setup, const Places& places, Problems& problems) {
   Checker(setup, places, problems).run();
   check_motions(setup, places, problems);
+}
+
+bool adheres(const Setup& setup, const WallSetup& wall) noexcept {
+  const auto moves = [&](const std::string& material) {
+    return std::ranges::find(setup.particles, material, &ParticleSetup::material) != setup.particles.end() ||
+           std::ranges::find(setup.insertions, material, &InsertionSetup::material) != setup.insertions.end();
+  };
+  return std::ranges::any_of(setup.contacts, [&](const ContactSetup& c) {
+    return c.cohesion == Cohesion::jkr &&
+           ((c.first == wall.material && moves(c.second)) || (c.second == wall.material && moves(c.first)));
+  });
 }
 
 bool counts_revolutions(const Setup& setup) noexcept {

@@ -45,6 +45,9 @@ void check_case(const simulation::Setup& setup, const Places& places, Problems& 
 /// alone.
 [[nodiscard]] bool lies_flat(const simulation::WallSetup& wall) noexcept;
 
+/// Whether something can stick to a wall by JKR, which only points of contact can follow.
+[[nodiscard]] bool adheres(const simulation::Setup& setup, const simulation::WallSetup& wall) noexcept;
+
 /// Whether some wall turns or oscillates, so that revolutions can be counted.
 [[nodiscard]] bool counts_revolutions(const simulation::Setup& setup) noexcept;
 

@@ -57,6 +57,12 @@ void Checker::check_wall(const WallSetup& wall) {
                     "deformation = \"none\": a sheet of one layer has no solid behind it that a patch could "
                     "overlap or wear take away",
                     wall.name));
+  if (wall.mesh.shape != MeshShape::plane && wall.contact != ContactRule::resolved &&
+      good(path + ".contact") && good("contact") && adheres(setup_, wall))
+    error(path + ".contact",
+          fmt::format("JKR contacts with wall '{}' last beyond zero overlap, which only contact = "
+                      "\"resolved\" (or an analytic plane) can follow",
+                      wall.name));
   if (wall.motion.surface_velocity != Vec3{} && setup_.run.method == Method::quasi_static &&
       good("run.method"))
     error(path + ".motion.surface_velocity",

@@ -301,8 +301,9 @@ simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems&
     for (simulation::WallSetup& wall : setup.walls)
       if (!places.given(fmt::format("wall.{}.contact", toml_key(wall.name))) &&
           wall.deformation != simulation::DeformationRule::paper)
-        wall.contact = wall.sides == simulation::Sides::both ? simulation::ContactRule::resolved
-                                                             : simulation::ContactRule::automatic;
+        wall.contact = wall.sides == simulation::Sides::both || adheres(setup, wall)
+                           ? simulation::ContactRule::resolved
+                           : simulation::ContactRule::automatic;
   // The default of one frame per revolution has no meaning where nothing turns.
   constexpr double kFrames = 10.0;
   if (!places.given("output.every") && !counts_revolutions(setup))

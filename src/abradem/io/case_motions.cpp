@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
+#include <string_view>
+#include <vector>
 
 #include "abradem/io/case_schema.h"
-#include "abradem/io/csv.h"
+#include "abradem/io/measured_table.h"
 #include "abradem/simulation/wall_motion.h"
 
 namespace abradem::io {
@@ -17,28 +18,32 @@ namespace {
 
 using namespace simulation;
 
-constexpr std::array<std::string_view, 5> kColumns{"time_s", "x_mm", "y_mm", "z_mm", "angle_deg"};
+constexpr const char* kColumns = "time_s, x_mm, y_mm, z_mm, angle_deg";
 
 void read_motion_file(MotionSetup& m) {
-  const CsvTable table = read_csv(m.file);
-  for (std::size_t c = 0; c < table.columns.size(); ++c)
-    if (std::ranges::find(kColumns, table.columns[c]) == kColumns.end())
-      throw InputError(fmt::format("{}:1: column {} is '{}'; a table of a motion has {}", m.file, c + 1,
-                                   table.columns[c], fmt::join(kColumns, ", ")));
-  const auto column = [&](std::string_view name) {
-    const bool there = std::ranges::find(table.columns, name) != table.columns.end();
-    return there ? table.column(name) : std::vector<double>(table.rows(), 0.0);
+  const MeasuredTable table(m.file);
+  std::vector<bool> known(table.header().size(), false);
+  const auto column = [&](std::string_view name, const core::Dimension& dimension) {
+    const auto c = table.find(std::array{name});
+    if (!c) return std::vector<double>(table.rows(), 0.0);
+    known[*c] = true;
+    return table.quantities(std::array{name}, dimension);
   };
-  if (std::ranges::find(table.columns, kColumns[0]) == table.columns.end())
-    throw InputError(fmt::format("{}:1: there is no column time_s; a table of a motion has {}", m.file,
-                                 fmt::join(kColumns, ", ")));
-  const auto time = column("time_s"), x = column("x_mm"), y = column("y_mm"), z = column("z_mm"),
-             angle = column("angle_deg");
+  constexpr core::Dimension kLength{.length = 1};
+  if (!table.find(std::array{std::string_view("time")}))
+    throw InputError(
+        fmt::format("{}: there is no column time_s; a table of a motion has {}", m.file, kColumns));
+  const auto time = column("time", {.time = 1}), x = column("x", kLength), y = column("y", kLength),
+             z = column("z", kLength), angle = column("angle", {.angle = 1});
+  if (const auto other = std::ranges::find(known, false); other != known.end())
+    throw InputError(fmt::format("{}: column {} is '{}'; a table of a motion has {}", m.file,
+                                 other - known.begin() + 1,
+                                 table.header()[static_cast<std::size_t>(other - known.begin())], kColumns));
   m.rows.clear();
-  for (std::size_t r = 0; r < table.rows(); ++r)
-    m.rows.push_back({time[r], 1e-3 * Vec3{x[r], y[r], z[r]}, std::numbers::pi / 180.0 * angle[r]});
+  for (std::size_t r = 0; r < table.rows(); ++r) m.rows.push_back({time[r], {x[r], y[r], z[r]}, angle[r]});
   if (const auto problem = problem_of_table(m))
-    throw InputError(fmt::format("{}:{}: {}", m.file, problem->row + 2, problem->what));
+    throw InputError(
+        fmt::format("{}:{}: {}", m.file, table.rows() > 0 ? table.line(problem->row) : 1, problem->what));
 }
 
 }  // namespace

@@ -47,9 +47,9 @@ const std::array kRows{
         .need = Need::has_default,
         .slot = ABRADEM_CHOICE(wall->contact),
         .choices = kContactRules,
-        .default_note =
-            "`\"patch\"`; where all particles are in numbers `\"auto\"` (`\"resolved\"` for a sheet with "
-            "two sides)",
+        .default_note = "`\"patch\"`; where all particles are in numbers `\"auto\"` (`\"resolved\"` with "
+                        "JKR, and for a sheet with "
+                        "two sides)",
         .example = "\"patch\"",
         .doc = "How a sphere meets the triangles: as one patch independent of the mesh (patch), as one point "
                "per "
@@ -293,7 +293,8 @@ const std::array kRows{
         .slot = ABRADEM_SLOT(motion->file),
         .when = {"kind", kTable},
         .example = "\"ride.csv\"",
-        .doc = "CSV file with the rows of the table, relative to the folder of the case file: time_s and any "
+        .doc = "[Table](measured-tables.md) with the rows, relative to the folder of the case file: time_s "
+               "and any "
                "of x_mm, y_mm, z_mm, angle_deg. Instead of rows."},
     Row{.section = "wall.*.motion",
         .key = "after",

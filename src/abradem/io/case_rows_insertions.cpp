@@ -118,6 +118,14 @@ const std::array kRows{
         .unit = "m/s",
         .example = "[0, 0, \"-1 m/s\"]",
         .doc = "Velocity of those that come in."},
+    Row{.section = "insertion.*",
+        .key = "spin",
+        .kind = Kind::vector,
+        .need = Need::has_default,
+        .slot = ABRADEM_SLOT(insertion->spin),
+        .unit = "rad/s",
+        .example = "[0, \"10 rad/s\", 0]",
+        .doc = "Angular velocity of those that come in."},
     Row{.section = "insertion.*.size",
         .key = "kind",
         .kind = Kind::choice,
@@ -174,9 +182,10 @@ const std::array kRows{
         .slot = ABRADEM_SLOT(insertion->size.file),
         .when = {"kind", kTableOfSizes},
         .example = "\"sizes.csv\"",
-        .doc = "CSV file with the columns radius_mm and share (of the number of spheres, any sum), relative "
-               "to the "
-               "folder of the case file."},
+        .doc =
+            "[Table](measured-tables.md) with the columns radius_mm or diameter_mm, in any unit, and share "
+            "(of the number of spheres, any sum) or mass_share (of their mass); relative to the folder of "
+            "the case file."},
     Row{.section = "insertion.*.volume",
         .key = "shape",
         .kind = Kind::choice,
@@ -232,11 +241,10 @@ const std::array kRows{
         .slot = ABRADEM_SLOT(insertion->volume.file),
         .when = {"shape", kFile},
         .example = "\"spheres.csv\"",
-        .doc = "CSV file with the columns x_mm, y_mm, z_mm and radius_mm, and where the spheres have "
-               "velocities of "
-               "their own velocity_x_m_per_s, velocity_y_m_per_s and velocity_z_m_per_s; relative to the "
-               "folder of "
-               "the case file."},
+        .doc = "[Table](measured-tables.md) with the columns x_mm, y_mm, z_mm and radius_mm (or "
+               "diameter_mm; in any unit), and where the spheres have velocities or spins of their own "
+               "velocity_x_m_per_s, velocity_y_m_per_s and velocity_z_m_per_s, or spin_x_rad_per_s, "
+               "spin_y_rad_per_s and spin_z_rad_per_s; relative to the folder of the case file."},
 
     Row{.section = "domain",
         .key = "low",

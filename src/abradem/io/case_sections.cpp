@@ -151,7 +151,8 @@ const std::array kSections{
             .add = nothing,
             .enter = stay},
     Section{.path = "insertion.*.volume",
-            .doc = "Where the spheres come in: their whole bodies lie inside, and they overlap no other.",
+            .doc = "Where the spheres come in: their whole bodies lie inside, and they overlap no other and "
+                   "no wall.",
             .presence = Presence::required,
             .count = one,
             .add = nothing,

@@ -151,6 +151,10 @@ class Units {
       return;  // sizes and places of a file have units
     const double R = largest_radius(i.size);
     if (!(R > 0.0)) return;
+    if (const double v = norm(i.spin) * R; v > kFastest)
+      ask(path + ".spin",
+          "the surface of particles of '{}' moves at {:.4g} m/s by their spin: is it in deg/s or rpm?",
+          i.name, v);
     check_width(i.name, R, path + ".size");
     const auto material = std::ranges::find(setup_.materials, i.material, &MaterialSetup::name);
     if (material != setup_.materials.end()) check_amounts(i, path, R, material->density);

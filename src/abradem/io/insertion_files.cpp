@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <string_view>
 
 #include "abradem/core/error.h"
 #include "abradem/geometry/mesh_check.h"
 #include "abradem/geometry/mesh_repair.h"
-#include "abradem/io/csv.h"
+#include "abradem/io/measured_table.h"
 #include "abradem/io/mesh_files.h"
 
 namespace abradem::io {
@@ -18,15 +21,73 @@ namespace {
 
 using namespace simulation;
 
-/// A column in which every number is finite and, where wanted, above 0.
-std::vector<double> checked(const CsvTable& table, const std::string& file, const char* name, bool positive) {
-  std::vector<double> values = table.column(name);
-  for (std::size_t r = 0; r < values.size(); ++r)
-    if (!std::isfinite(values[r]) || (positive && !(values[r] > 0.0)))
-      throw InputError(fmt::format("{}:{}: {} = {}; must be a number{}", file, r + 2, name, values[r],
-                                   positive ? " > 0" : ""));
-  if (values.empty()) throw InputError(fmt::format("'{}' has no rows", file));
+constexpr core::Dimension kLength{.length = 1}, kNone{};
+
+std::vector<double> column(const MeasuredTable& table, std::string_view name,
+                           const core::Dimension& dimension) {
+  return table.quantities(std::array{name}, dimension);
+}
+bool has(const MeasuredTable& table, std::string_view name) {
+  return table.find(std::array{name}).has_value();
+}
+
+/// @throws IoError naming the place of the first value for which `good` does not hold
+void require(const MeasuredTable& table, std::string_view name, std::span<const double> values,
+             const char* wanted, bool (*good)(double)) {
+  const std::size_t bad = static_cast<std::size_t>(std::ranges::find_if_not(values, good) - values.begin());
+  if (bad < values.size())
+    throw IoError(table.at(bad, *table.find(std::array{name}), fmt::format("{} must be {}", name, wanted)));
+}
+
+/// Of the column radius, or of half the diameter [m].
+std::vector<double> radii(const MeasuredTable& table) {
+  const std::string_view name = has(table, "diameter") && !has(table, "radius") ? "diameter" : "radius";
+  std::vector<double> values = column(table, name, kLength);
+  if (values.empty()) throw IoError(fmt::format("{}: has no rows", table.file()));
+  require(table, name, values, "> 0", [](double R) { return R > 0.0; });
+  if (name == "diameter")
+    for (double& R : values) R *= 0.5;
   return values;
+}
+
+/// The vectors of the columns NAME_x, NAME_y and NAME_z; where the table has none of them, those of the case
+/// for all.
+std::vector<Vec3> own_vectors(const MeasuredTable& table, const std::string& name,
+                              const core::Dimension& dimension, const Vec3& of_all) {
+  std::vector<Vec3> values(table.rows(), of_all);
+  if (!has(table, name + "_x") && !has(table, name + "_y") && !has(table, name + "_z")) return values;
+  const auto x = column(table, name + "_x", dimension), y = column(table, name + "_y", dimension),
+             z = column(table, name + "_z", dimension);
+  for (std::size_t r = 0; r < values.size(); ++r) values[r] = {x[r], y[r], z[r]};
+  return values;
+}
+
+void read_places(InsertionSetup& i) {
+  const MeasuredTable table(i.volume.file);
+  const auto x = column(table, "x", kLength), y = column(table, "y", kLength),
+             z = column(table, "z", kLength), R = radii(table);
+  const auto velocity = own_vectors(table, "velocity", {.length = 1, .time = -1}, i.velocity);
+  const auto spin = own_vectors(table, "spin", {.time = -1, .angle = 1}, i.spin);
+  i.placed.clear();
+  for (std::size_t r = 0; r < x.size(); ++r)
+    i.placed.push_back({{x[r], y[r], z[r]}, R[r], velocity[r], spin[r]});
+}
+
+/// Shares by number, or by mass, which a number of spheres has that goes with 1/R^3. Sizes of no share are
+/// left out.
+void read_sizes(SizeSetup& size) {
+  const MeasuredTable table(size.file);
+  const std::string_view name = has(table, "mass_share") && !has(table, "share") ? "mass_share" : "share";
+  const std::vector<double> R = radii(table), shares = column(table, name, kNone);
+  require(table, name, shares, ">= 0", [](double share) { return share >= 0.0; });
+  size.radii.clear(), size.shares.clear();
+  const double largest = std::ranges::max(R);
+  for (std::size_t r = 0; r < R.size(); ++r) {
+    if (shares[r] == 0.0) continue;
+    size.radii.push_back(R[r]);
+    size.shares.push_back(name == "share" ? shares[r] : shares[r] * std::pow(largest / R[r], 3.0));
+  }
+  if (size.radii.empty()) throw IoError(fmt::format("{}: all shares are 0", table.file()));
 }
 
 void fit_shape(const std::string& name, ShapeFitSetup& fit) {
@@ -57,31 +118,10 @@ void read_insertion_files(Setup& setup) {
   for (ShapeSetup& shape : setup.shapes)
     if (shape.fit) fit_shape(shape.name, *shape.fit);
   for (InsertionSetup& i : setup.insertions) {
-    if (i.volume.shape == VolumeShape::file) {
-      const CsvTable table = read_csv(i.volume.file);
-      const auto x = checked(table, i.volume.file, "x_mm", false),
-                 y = checked(table, i.volume.file, "y_mm", false),
-                 z = checked(table, i.volume.file, "z_mm", false),
-                 R = checked(table, i.volume.file, "radius_mm", true);
-      // Velocities of their own, where the file has them.
-      const bool moving = std::ranges::find(table.columns, "velocity_x_m_per_s") != table.columns.end();
-      std::vector<double> u, v, w;
-      if (moving) {
-        u = checked(table, i.volume.file, "velocity_x_m_per_s", false);
-        v = checked(table, i.volume.file, "velocity_y_m_per_s", false);
-        w = checked(table, i.volume.file, "velocity_z_m_per_s", false);
-      }
-      i.placed.clear();
-      for (std::size_t r = 0; r < x.size(); ++r)
-        i.placed.push_back(
-            {1e-3 * Vec3{x[r], y[r], z[r]}, 1e-3 * R[r], moving ? Vec3{u[r], v[r], w[r]} : i.velocity});
-    }
-    if (i.size.kind == SizeKind::table && i.volume.shape != VolumeShape::file) {
-      const CsvTable table = read_csv(i.size.file);
-      i.size.radii = checked(table, i.size.file, "radius_mm", true);
-      for (double& R : i.size.radii) R *= 1e-3;
-      i.size.shares = checked(table, i.size.file, "share", true);
-    }
+    if (i.volume.shape == VolumeShape::file)
+      read_places(i);
+    else if (i.size.kind == SizeKind::table)
+      read_sizes(i.size);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "abradem/core/error.h"
@@ -50,8 +51,13 @@ std::pair<std::string, std::string> name_and_unit(std::string_view field) {
     unit = with_powers(trimmed(field.substr(open + 1, field.size() - open - 2)));
     name = trimmed(field.substr(0, open));
   }
-  if (const std::size_t bar = name.rfind('_'); unit.empty() && bar != std::string_view::npos && bar > 0) {
-    std::string end = with_powers(name.substr(bar + 1));
+  // "velocity_x_m_per_s": m/s, as our own tables have it.
+  constexpr std::string_view kPer = "_per_";
+  const std::size_t per = name.rfind(kPer);
+  if (const std::size_t bar = name.rfind('_', per == std::string_view::npos ? per : per - 1);
+      unit.empty() && bar != std::string_view::npos && bar > 0 && per != 0) {
+    std::string end = with_powers(name.substr(bar + 1, per == std::string_view::npos ? per : per - bar - 1));
+    if (per != std::string_view::npos) end.append("/").append(with_powers(name.substr(per + kPer.size())));
     if (is_unit(end)) {
       unit = std::move(end);
       name = name.substr(0, bar);
@@ -168,7 +174,7 @@ std::size_t MeasuredTable::require(std::span<const std::string_view> names,
 }
 
 std::vector<double> MeasuredTable::quantities(std::span<const std::string_view> names,
-                                              const core::Dimension& dimension) const {
+                                              const core::Dimension& dimension, bool gaps) const {
   const std::size_t c = require(names, dimension);
   const auto in_header = [&](const std::string& what) {
     return IoError(
@@ -188,6 +194,10 @@ std::vector<double> MeasuredTable::quantities(std::span<const std::string_view> 
   std::vector<double> values;
   for (std::size_t r = 0; r < rows(); ++r) {
     const std::string& text = fields_[r][c].text;
+    if (gaps && text == "nan") {
+      values.push_back(std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
     double number = 0.0;
     const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
     const auto [stop, code] = std::from_chars(begin, text.data() + text.size(), number);

@@ -36,10 +36,11 @@ class MeasuredTable {
 
   /// The column's values in SI units.
   /// @param names of which the column has one   @param dimension that its unit must have
+  /// @param gaps may a field be "nan", as our tables have what does not exist? Then it is NaN.
   /// @throws IoError when there is no such column, its unit is missing or of another dimension, or a field is
   /// not one finite number
   [[nodiscard]] std::vector<double> quantities(std::span<const std::string_view> names,
-                                               const core::Dimension& dimension) const;
+                                               const core::Dimension& dimension, bool gaps = false) const;
   /// The column's fields as they stand, without the quotes.   @throws IoError when there is no such column
   [[nodiscard]] std::vector<std::string> texts(std::span<const std::string_view> names) const;
 

@@ -30,21 +30,6 @@ struct Below {
   bool facing_away = false;  ///< the particle sees the back of the surface
 };
 
-/// Where the ray meets the plane of the triangle, in units of the direction, if that is inside the triangle;
-/// a hair of tolerance keeps a ray through a shared edge from slipping between its two triangles.
-std::optional<double> ray_meets(const Vec3& from, const Vec3& direction, const Vec3 (&v)[3]) {
-  const Vec3 normal = cross(v[1] - v[0], v[2] - v[0]);
-  const double slope = dot(normal, direction), size = dot(normal, normal);
-  if (std::abs(slope) < 1e-12 * std::sqrt(size)) return {};
-  const double t = dot(normal, v[0] - from) / slope;
-  const Vec3 hit = from + t * direction;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 &a = v[k], &b = v[(k + 1) % 3];
-    if (dot(cross(b - a, hit - a), normal) < -1e-9 * size) return {};
-  }
-  return t;
-}
-
 class MeshSeen {
  public:
   MeshSeen(const Wall& wall, const Vec3& centre) : mesh_(wall.surface().mesh()), centre_(centre) {}
@@ -64,7 +49,7 @@ class MeshSeen {
     std::optional<Below> first;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const auto v = corners(t);
-      const auto d = ray_meets(centre_, direction, v.at);
+      const auto d = geometry::ray_meets(centre_, direction, v.at);
       if (!d || *d < 0.0 || (first && first->distance <= *d)) continue;
       first = Below{*d, dot(cross(v.at[1] - v.at[0], v.at[2] - v.at[0]), direction) > 0.0};
     }

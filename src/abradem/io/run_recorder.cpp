@@ -50,6 +50,23 @@ std::vector<double> depths_um(const wear::WearingSurface& surface) {
   return depth;
 }
 
+bool moves_rigidly(const simulation::WallSetup& wall) noexcept {
+  for (std::size_t k = 0; k < wall.motions(); ++k)
+    if (wall.motion_at(k).kind != simulation::MotionKind::none) return true;
+  return false;
+}
+
+/// From where a wall's nodes are in its own frame to where its motion has carried them [m].
+std::vector<double> moved_m(const simulation::Wall& wall, double time) {
+  const geometry::Pose pose = wall.pose_at(time);
+  std::vector<double> moved;
+  for (const Vec3& v : wall.surface().mesh().vertices) {
+    const Vec3 way = pose.to_world(v) - v;
+    moved.insert(moved.end(), {way.x, way.y, way.z});
+  }
+  return moved;
+}
+
 }  // namespace
 
 RunRecorder::RunRecorder(Simulation& run, std::filesystem::path folder)
@@ -161,13 +178,17 @@ void RunRecorder::write_frame() {
   for (std::size_t w = 0; w < run_.walls().size(); ++w) {
     const simulation::Wall& wall = run_.walls()[w];
     if (wall.is_plane() || !wall.present(run_.time())) continue;
-    // A wall that keeps its shape, and has no map, is written once.
+    // A wall that keeps its shape, has no map and stays where it is among particles in numbers is written
+    // once.
+    const bool moves = run_.bulk() && moves_rigidly(wall.setup());
     const bool still = wall.setup().deformation == simulation::DeformationRule::none &&
-                       run_.map_of(w) == nullptr && state_.frame > 0;
+                       run_.map_of(w) == nullptr && !moves && state_.frame > 0;
     const std::string file = fmt::format("vtk/{}_{:04}.vtp", wall.setup().name, still ? 0 : state_.frame);
     if (!still) {
       const std::vector<double> depth = depths_um(wall.surface());
-      const VtpArray points[]{{"depth_um", depth, 1}};
+      const std::vector<double> moved = moves ? moved_m(wall, run_.time()) : std::vector<double>{};
+      std::vector<VtpArray> points{{"depth_um", depth, 1}};
+      if (moves) points.push_back({"moved_m", moved, 3});
       const MapArrays cells = map_arrays(run_, w);
       if (!triangles_[w]) triangles_[w].emplace(wall.surface().mesh().triangles);
       write_vtp(folder_ / file, wall.surface().mesh().vertices, *triangles_[w], points, cells.arrays);

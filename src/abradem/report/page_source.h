@@ -9,6 +9,8 @@ namespace abradem::report {
 [[nodiscard]] std::string_view run_body() noexcept;    ///< what the shell holds in a run's report
 [[nodiscard]] std::string_view
 groove_figures() noexcept;  ///< its sections on the groove and the contact of a guided body
+[[nodiscard]] std::string_view surface_figures() noexcept;     ///< its section on the worn surface
+[[nodiscard]] std::string_view volume_figure() noexcept;       ///< its section on the worn volume
 [[nodiscard]] std::string_view wear_map_body() noexcept;       ///< its section on the walls' wear maps
 [[nodiscard]] std::string_view page_style() noexcept;          ///< CSS of every page
 [[nodiscard]] std::string_view chart_tools_script() noexcept;  ///< what every page's figures are drawn with

@@ -58,7 +58,7 @@ Figure numbers(const Table& table) {
                   against_time(table, "inserted", "put in", 2),
                   against_time(table, "removed", "taken out", 1)};
   Panel contacts{.title = "Contacts", .x = kTime, .y = {.title = "contacts [-]"}};
-  contacts.series = {against_time(table, "contacts", "of two particles", 0),
+  contacts.series = {against_time(table, "contacts", "of two particles", 4),
                      against_time(table, "wall_contacts", "with walls", 3)};
   figure.panels = {std::move(count), std::move(contacts)};
   return figure;
@@ -113,6 +113,14 @@ std::string sentence(const Table& table) {
 }
 
 }  // namespace
+
+std::optional<Outflow> mean_outflow(const Table& particles) {
+  const std::vector<double>&time = flow_time(particles), &mass = particles["removed_mass_kg"];
+  if (mass.empty() || mass.front() > 0.0 || !(mass.back() > 0.0)) return std::nullopt;
+  std::size_t first = 0;
+  while (mass[first + 1] == 0.0) ++first;
+  return Outflow{(mass.back() - mass[first]) / (time.back() - time[first]), time[first]};
+}
 
 std::optional<PageSection> particles_section(const RunFolder& run) {
   if (!run.particles || run.particles->rows() == 0) return std::nullopt;

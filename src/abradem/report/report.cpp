@@ -135,11 +135,30 @@ std::vector<PageSection> numbered_sections(const RunFolder& run) {
   return sections;
 }
 
-constexpr int kFigures = 3, kGrooveFigures = 7;  ///< of run.html, of groove.html
+constexpr int kGrooveFigures = 7;  ///< of groove.html, whose numbers go on from three
+
+/// The worn surface and the volume, where there are any.   @param figures counts them
+std::string worn_html(const RunFolder& run, int& figures) {
+  const bool groove = run.has_groove();
+  const auto next = [&] { return std::to_string(++figures); };
+  std::string out;
+  if (groove || run.surface) {
+    const std::string surface = next(), map = next();
+    out += fill(surface_figures(), {{"surface_number", surface},
+                                    {"map_number", map},
+                                    {"whole", groove ? "whole track" : "whole wall"},
+                                    {"close", groove ? "close-up of the groove" : "close-up"}});
+  }
+  if (groove || run.manifest.ledger.law_volume_mm3 > 0.0)
+    out += fill(volume_figure(), {{"volume_number", next()}});
+  return out;
+}
 
 std::string page_of(const RunFolder& run, const std::vector<PageSection>& sections) {
   const bool groove = run.has_groove();
-  int figures = kFigures + (groove ? kGrooveFigures : 0);
+  int figures = 0;
+  const std::string worn = worn_html(run, figures);
+  if (groove) figures += kGrooveFigures;
   const WearMapFigure map = wear_map_figure(run, figures + 1);
   if (!map.html.empty()) ++figures;
   const SectionParts numbers = section_parts(sections, figures, 0);
@@ -148,6 +167,7 @@ std::string page_of(const RunFolder& run, const std::vector<PageSection>& sectio
                 .title = page_title(run),
                 .lead = verdict(run),
                 .body = fill(run_body(), {{"cards", verdict_cards(run)},
+                                          {"worn", worn},
                                           {"groove", std::string(groove ? groove_figures() : "") + map.html},
                                           {"numbered", numbers.html},
                                           {"ledger", ledger_table(run)},

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "abradem/report/particles_section.h"
 #include "abradem/report/text.h"
 
 namespace abradem::report {
@@ -108,6 +110,64 @@ Card status_card(const RunFolder& run, const LastRow& row) {
   return card;
 }
 
+std::string ledger_cards(const LedgerSummary& ledger) {
+  return html({"κ, mesh over law", readable(ledger.kappa, 6), "[-]",
+               "Volume the mesh lost over the volume of the wear law. 1: the shape obeys the law.",
+               Mark::none, ""}) +
+         html(
+             {"Ledger residual", readable(ledger.residual_relative, 2), "[-]",
+              "Swept against deposited volume. Round-off (below 10⁻⁹) when the deformation conserves volume.",
+              Mark::none, ""});
+}
+
+/// Of the wall that wore most: of its nodes where it changed its shape, else of its elements.
+Card depth_card(const RunFolder& run) {
+  Card card{"Greatest wear depth", "–", "µm", "Of the wall that wore most.", Mark::none, ""};
+  if (run.surface) {
+    card.value = readable(run.surface->max_depth_um, 3);
+  } else if (run.wear && run.wear->rows() > 0) {
+    card.value = readable(std::ranges::max((*run.wear)["wear_depth_um"]), 3);
+    card.note = "Volume over area of the element that wore most.";
+  }
+  return card;
+}
+
+/// What has left, and how fast since the first did.
+Card left_card(const Table& particles, const Outflow& outflow) {
+  return {"Mass that left",
+          readable(particles["removed_mass_kg"].back()),
+          "kg",
+          fmt::format("{} particles; {} kg/s on average since {} s",
+                      readable_count(static_cast<long long>(particles["removed"].back())),
+                      readable(outflow.rate), readable(outflow.since)),
+          Mark::none,
+          ""};
+}
+
+/// Of a run with particles in numbers.
+std::string bulk_cards(const RunFolder& run, const LastRow& row) {
+  const LedgerSummary& ledger = run.manifest.ledger;
+  std::string out;
+  if (ledger.law_volume_mm3 > 0.0) {
+    Card volume = volume_card(run, row);
+    if (ledger.kappa == 0.0) {
+      volume.value = readable(ledger.law_volume_mm3);
+      volume.note = "By the wear laws; the walls keep their shape.";
+    }
+    out += html(volume) + html(depth_card(run));
+    if (ledger.kappa > 0.0) out += ledger_cards(ledger);
+  }
+  if (run.particles && run.particles->rows() > 0) {
+    const Table& p = *run.particles;
+    out += html({"Particles in the run", readable_count(static_cast<long long>(p["particles"].back())), "",
+                 fmt::format("{} kg; {} were put in", readable(p["mass_kg"].back()),
+                             readable_count(static_cast<long long>(p["inserted"].back()))),
+                 Mark::none, ""});
+    if (const auto outflow = mean_outflow(p)) out += html(left_card(p, *outflow));
+  }
+  return out + html(status_card(run, row));
+}
+
 std::string row_html(const std::string& name, const std::string& value, const std::string& meaning) {
   return fmt::format("<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td>{}</td></tr>\n",
                      escape_html(name), escape_html(value), escape_html(meaning));
@@ -135,9 +195,21 @@ std::string verdict(const RunFolder& run) {
                       run.manifest.status == "failed"    ? "was stopped because it failed"
                       : run.manifest.status == "running" ? "is going on, or was killed"
                                                          : "was interrupted");
+    if (!run.manifest.error.empty())
+      out = fmt::format("The run failed: {}. What follows is the last good state. ", run.manifest.error);
   }
+  if (!run.has_groove() && ledger.law_volume_mm3 == 0.0)
+    return out +
+           (std::isfinite(row.revolution) ? fmt::format("After {} no wall", duration(run, row))
+                                          : std::string("No wall")) +
+           " has worn.";
+  if (!run.has_groove() && ledger.kappa == 0.0)
+    return out + fmt::format("{} the wear laws have taken {} mm³ from walls that keep their shape.",
+                             std::isfinite(row.revolution) ? "After " + duration(run, row) : "So far",
+                             readable(ledger.law_volume_mm3));
   if (std::isfinite(row.revolution)) {
-    out += fmt::format("After {} the wall has lost {} mm³", duration(run, row), readable(row.volume_mm3));
+    out += fmt::format("After {} the {} lost {} mm³", duration(run, row),
+                       run.has_groove() ? "wall has" : "walls have", readable(row.volume_mm3));
   } else {
     out += fmt::format("The wall has lost {} mm³", readable(row.volume_mm3));
   }
@@ -152,27 +224,19 @@ std::string verdict_cards(const RunFolder& run) {
   const LastRow row = last_row(run);
   const Measurement& lab = run.manifest.measurement;
   const LedgerSummary& ledger = run.manifest.ledger;
+  if (!run.has_groove()) return bulk_cards(run, row);
   std::string out = html(volume_card(run, row));
-  if (!run.has_groove()) {
-    out += html({"Greatest wear depth", run.surface ? readable(run.surface->max_depth_um, 3) : "–", "µm",
-                 "Of the wall that wore most.", Mark::none, ""});
-  } else {
-    out += html(groove_card("Groove depth", "µm", row.depth_um, row.depth_sd_um, lab.depth_mm, 1e3, lab));
-    out += html(groove_card("Groove width", "mm", row.width_mm, row.width_sd_mm, lab.width_mm, 1.0, lab));
-  }
-  out += html({"κ, mesh over law", readable(ledger.kappa, 6), "[-]",
-               "Volume the mesh lost over the volume of the wear law. 1: the shape obeys the law.",
-               Mark::none, ""});
-  out +=
-      html({"Ledger residual", readable(ledger.residual_relative, 2), "[-]",
-            "Swept against deposited volume. Round-off (below 10⁻⁹) when the deformation conserves volume.",
-            Mark::none, ""});
+  out += html(groove_card("Groove depth", "µm", row.depth_um, row.depth_sd_um, lab.depth_mm, 1e3, lab));
+  out += html(groove_card("Groove width", "mm", row.width_mm, row.width_sd_mm, lab.width_mm, 1.0, lab));
+  out += ledger_cards(ledger);
   out += html(status_card(run, row));
   return out;
 }
 
 std::string ledger_table(const RunFolder& run) {
   const LedgerSummary& ledger = run.manifest.ledger;
+  if (!run.has_groove() && ledger.law_volume_mm3 == 0.0)
+    return "<p class=\"text\">No wall has worn: there is nothing to account for.</p>\n";
   std::string out =
       "<table class=\"wide\"><thead><tr><th scope=\"col\">Entry</th><th scope=\"col\" "
       "class=\"number\">Value</th>"
@@ -190,10 +254,10 @@ std::string ledger_table(const RunFolder& run) {
   out += row_html(
       "Relative residual", readable(ledger.residual_relative, 3) + " [-]",
       "Swept minus deposited, over deposited. Round-off means that every cubic micrometre is accounted for.");
-  out += row_html(
-      "κ", readable(ledger.kappa, 8) + " [-]",
-      "Swept over law volume. 1 in the conserving rule; about 6.05 in the paper's rule on a regular mesh, "
-      "which moves all three nodes of an element by its full depth.");
+  out += row_html("κ", readable(ledger.kappa, 8) + " [-]",
+                  "Swept over law volume, of the walls that change their shape. 1 in the conserving rule; "
+                  "about 6.05 in the paper's rule on a regular mesh, "
+                  "which moves all three nodes of an element by its full depth.");
   return out + "</tbody></table>\n";
 }
 

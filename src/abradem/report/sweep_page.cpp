@@ -26,6 +26,8 @@ constexpr std::array kShown{
     Shown{"area_mean_mm2", "area", "Worn section", "mean area of the sections [µm²]", 1e6},
     Shown{"force_mean_N", "force", "Normal force", "mean normal force of the last interval [N]"},
     Shown{"kappa", "kappa", "Volume lost over volume of the law", "κ [-]"},
+    Shown{"outflow_kg_per_s", "outflow", "Mass flow out", "mean mass flow out [kg/s]"},
+    Shown{"particles", "particles", "Particles in the run", "particles at the end [-]"},
 };
 
 /// Same to this relative difference: nothing to see in a figure.
@@ -217,7 +219,8 @@ DataTable runs_table(const SweepTable& table, const std::string& id) {
   for (const SweepColumn& factor : table.factors) out.columns.push_back(factor.title);
   std::vector<const SweepColumn*> results;
   for (const Shown& shown : kShown)
-    if (const SweepColumn* result = find(table, shown.column)) {
+    if (const SweepColumn* result = find(table, shown.column);
+        result != nullptr && std::ranges::any_of(result->number, [](double x) { return std::isfinite(x); })) {
       results.push_back(result);
       out.columns.push_back(result->title);
     }

@@ -5,19 +5,25 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "abradem/core/error.h"
 #include "abradem/core/units.h"
 #include "abradem/io/factor_text.h"
 #include "abradem/io/wear_tables.h"
 #include "abradem/report/manifest.h"
+#include "abradem/report/particles_section.h"
+#include "abradem/report/table.h"
 
 namespace abradem::report {
 namespace {
+
+using namespace std::string_view_literals;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -70,6 +76,21 @@ SweepColumn factor_column(const std::string& key, std::vector<std::string> value
   return column;
 }
 
+/// What a table of runs has of particles in numbers: the last row of particles.csv, and the mean flow out.
+constexpr std::array kOfParticles{
+    "particles"sv, "mass_kg"sv,       "inserted"sv,         "removed"sv,          "removed_mass_kg"sv,
+    "contacts"sv,  "wall_contacts"sv, "kinetic_energy_J"sv, "elastic_energy_J"sv, "fastest_m_per_s"sv};
+constexpr auto kOutflow = "outflow_kg_per_s";
+
+void add_particles(std::map<std::string, double>& results, const std::filesystem::path& file) {
+  std::error_code code;
+  if (!std::filesystem::exists(file, code)) return;
+  const Table table = read_table(file, kOfParticles);
+  if (table.rows() == 0) return;
+  for (const std::string_view name : kOfParticles) results[std::string(name)] = table[name].back();
+  if (const auto outflow = mean_outflow(table)) results[kOutflow] = outflow->rate;
+}
+
 /// Results of one run by column; empty where there are none.
 std::map<std::string, double> results_of(const std::filesystem::path& folder) {
   try {
@@ -77,6 +98,7 @@ std::map<std::string, double> results_of(const std::filesystem::path& folder) {
     std::map<std::string, double> results(run.results.begin(), run.results.end());
     if (!results.empty()) results["kappa"] = run.ledger.kappa;
     results["steps"] = static_cast<double>(run.steps);
+    add_particles(results, folder / "tables" / "particles.csv");
     return results;
   } catch (const IoError&) {
     return {};
@@ -103,15 +125,20 @@ SweepTable make_sweep_table(const std::vector<std::string>& keys, const std::vec
   SweepTable table;
   std::vector<std::string> names = io::revolution_columns();
   names.insert(names.end(), {"kappa", "steps"});
+  std::vector<std::map<std::string, double>> results;
+  for (const SweepRun& run : runs) results.push_back(results_of(run.folder));
+  if (std::ranges::any_of(results, [](const auto& of_run) { return of_run.contains("particles"); })) {
+    names.insert(names.end(), kOfParticles.begin(), kOfParticles.end());
+    names.emplace_back(kOutflow);
+  }
   for (const std::string& name : names) table.results.push_back({.title = name, .text = {}, .number = {}});
-  for (const SweepRun& run : runs) {
-    table.names.push_back(run.name);
-    table.status.push_back(run.status);
-    table.messages.push_back(run.message);
-    const std::map<std::string, double> results = results_of(run.folder);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    table.names.push_back(runs[r].name);
+    table.status.push_back(runs[r].status);
+    table.messages.push_back(runs[r].message);
     for (SweepColumn& column : table.results) {
-      const auto found = results.find(column.title);
-      column.number.push_back(found == results.end() ? kNone : found->second);
+      const auto found = results[r].find(column.title);
+      column.number.push_back(found == results[r].end() ? kNone : found->second);
       column.text.push_back(number_text(column.number.back()));
     }
   }

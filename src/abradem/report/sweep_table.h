@@ -29,7 +29,8 @@ struct SweepColumn {
 struct SweepTable {
   std::vector<std::string> names, status, messages;
   std::vector<SweepColumn> factors;
-  std::vector<SweepColumn> results;  ///< the last row of each run's revolutions.csv, kappa, steps
+  std::vector<SweepColumn>
+      results;  ///< the last row of each run's revolutions.csv, kappa, steps; of particles
 };
 
 /// Reads each run's run.json. A run without one, or that did not come to its first output, has nan in its

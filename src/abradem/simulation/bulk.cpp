@@ -8,6 +8,7 @@
 
 #include "abradem/contact/full_law.h"
 #include "abradem/core/error.h"
+#include "abradem/geometry/mesh_check.h"
 
 namespace abradem::simulation {
 
@@ -46,11 +47,17 @@ std::string left_the_domain(const std::string& who, const Vec3& p, const Vec3& v
       who, p.x, p.y, p.z, norm(v));
 }
 
+/// Does a sphere at c, in the wall's frame, overlap none of it?
+bool is_clear_of(const Wall& wall, const Vec3& c, double radius) {
+  if (!wall.is_plane()) return !distance_within(wall.view(), c, radius);
+  return dot(wall.setup().mesh.normal, c - wall.setup().mesh.position) >= radius;
+}
+
 }  // namespace
 
 Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
            const std::vector<material::PairProperties>& properties, const Particles& named,
-           const std::vector<ClumpShape>& shapes)
+           const std::vector<ClumpShape>& shapes, std::span<const Wall> walls)
     : clumps_(shapes),
       walls_(setup.walls.size()),
       domain_(setup.domain),
@@ -90,29 +97,52 @@ Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
     inserters_.emplace_back(insertion, static_cast<int>(m), materials[m].density, setup.run.seed, kStream + k,
                             shape != shapes.end() ? &*shape : nullptr);
   }
-  take_in(0.0);
+  take_in(0.0, walls);
 }
 
-void Bulk::take_in(double time) {
+void Bulk::take_in(double time, std::span<const Wall> walls) {
+  const auto clear = [&](const Vec3& centre, double radius) {
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+      const Vec3 c = walls[w].pose_at(time).to_body(centre);
+      if (walls[w].present(time) && (!is_clear_of(walls[w], c, radius) || is_inside(w, walls[w], c)))
+        return false;
+    }
+    return true;
+  };
   for (Inserter& inserter : inserters_) {
     if (!inserter.wants(time)) continue;
     if (const ClumpShape* shape = inserter.shape()) {
       const auto number =
           std::ranges::find(clumps_.shapes(), shape->name, &ClumpShape::name) - clumps_.shapes().begin();
-      for (Clumps::Birth& birth : inserter.insert_clumps(time, spheres_, period_)) {
+      for (Clumps::Birth& birth : inserter.insert_clumps(time, spheres_, period_, clear)) {
         birth.shape = static_cast<std::int32_t>(number);
         clumps_.add(birth, spheres_, next_id_);
         worn_out_ = true;
       }
       continue;
     }
-    for (const contact::SphereRow& s : inserter.insert(time, spheres_, period_)) {
+    for (const contact::SphereRow& s : inserter.insert(time, spheres_, period_, clear)) {
       spheres_.row.push_back(s);
       spheres_.id.push_back(next_id_++);
       worn_out_ = true;
     }
   }
   if (!clumps_.empty()) spheres_.clump.resize(spheres_.size(), -1);
+}
+
+/// Is c, in its frame, inside the solid that the wall's mesh bounds?
+bool Bulk::is_inside(std::size_t w, const Wall& wall, const Vec3& c) {
+  if (wall.is_plane() || wall.setup().sides == Sides::both) return false;
+  const geometry::BoundingBox box = wall.view().grid.box();
+  if (c.x < box.low.x || c.y < box.low.y || c.z < box.low.z || c.x > box.high.x || c.y > box.high.y ||
+      c.z > box.high.z)
+    return false;
+  solid_.resize(std::max(solid_.size(), w + 1));
+  if (!solid_[w]) {
+    const geometry::TriangleMesh& mesh = wall.surface().mesh();
+    solid_[w] = geometry::signed_volume(mesh) > 0.0 && geometry::check_mesh(mesh).closed;
+  }
+  return *solid_[w] && is_behind(wall.view(), c);
 }
 
 void Bulk::take_out_clumps() {
@@ -165,7 +195,7 @@ void Bulk::fetch_named(const Particles& named) {
 }
 
 void Bulk::find_contacts(const Surroundings& around, const Particles& named, std::vector<double>& paper) {
-  take_in(around.time);
+  take_in(around.time, around.walls);
   fetch_named(named);
   const double by_walls = walls_.fastest_wall() * wall_time_;
   worn_out_ = worn_out_ || around.time >= walls_.next_removal();
@@ -258,8 +288,12 @@ void Bulk::integrate(const Surroundings& around) {
 void Bulk::check(const Surroundings& around, std::uint64_t step) const {
   const bool slow = met_.longest <= kFastest && met_.fastest2 <= fastest_allowed_ * fastest_allowed_ &&
                     walls_.fastest_wall() * around.dt <= skin_;
+  const bool deep = !pairs_sound_ || !walls_sound_;
+  // What lies too deep is thrown out too fast: the cause first.
+  if (met_.finite && deep) check_overlaps(around, step);
   if (!met_.finite || !slow) check_motion(around, step);
-  if (!pairs_sound_ || !walls_sound_) check_overlaps(around, step);
+  if (deep)
+    fail(0, "it or another one overlaps a sphere or a wall by more than a tenth of its radius", around, step);
 }
 
 void Bulk::check_motion(const Surroundings& around, std::uint64_t step) const {
@@ -304,11 +338,18 @@ void Bulk::check_overlaps(const Surroundings& around, std::uint64_t step) const 
   });
   constexpr double kDeepestInWall = 0.5 * contact::kDeepest;
   const auto check_wall = [&](std::int32_t sphere, std::size_t w, double overlap, double most) {
-    if (overlap > most * spheres_.row[at(sphere)].radius)
-      fail(at(sphere),
-           fmt::format("its overlap with wall '{}' is {:.4g} mm, more than a tenth of its radius",
-                       around.walls[w].setup().name, 1e3 * overlap),
-           around, step);
+    const double R = spheres_.row[at(sphere)].radius;
+    if (overlap <= most * R) return;
+    const std::string what =
+        fmt::format("its overlap with wall '{}' is {:.4g} mm, more than a tenth of its radius",
+                    around.walls[w].setup().name, 1e3 * overlap);
+    // Nothing is pressed in so deep: it came from behind.
+    if (overlap > 0.5 * R && !around.walls[w].is_plane() && around.walls[w].setup().sides == Sides::front)
+      fail(at(sphere), what, around, step,
+           ". Do the normals of its triangles point to the particles? The other side of a wall cannot be "
+           "touched; "
+           "of a thin sheet both can with sides = \"both\"");
+    fail(at(sphere), what, around, step);
   };
   for (std::size_t w = 0; w < walls_.planes().size(); ++w) {
     const contact::PlaneList& plane = walls_.planes()[w];
@@ -322,7 +363,6 @@ void Bulk::check_overlaps(const Surroundings& around, std::uint64_t step) const 
   for (const BulkWalls::NearMesh& m : walls_.meshes())
     for (const SphereWall::Touch& t : m.contact->touches())
       check_wall(m.sphere, at(m.wall), t.overlap, kDeepestInWall);
-  fail(0, "it or another one overlaps a sphere or a wall by more than a tenth of its radius", around, step);
 }
 
 void Bulk::watch_stability(const Surroundings& around, std::uint64_t step, Stability then) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "abradem/contact/sphere_forces.h"
@@ -35,7 +36,7 @@ class Bulk {
   /// @param materials densities are taken from them   @param shapes of setup.shapes, in their order
   Bulk(const Setup& setup, const std::vector<material::Material>& materials,
        const std::vector<material::PairProperties>& properties, const Particles& named,
-       const std::vector<ClumpShape>& shapes);
+       const std::vector<ClumpShape>& shapes, std::span<const Wall> walls);
 
   /// Takes in what is due for insertion and takes out what has left; makes the lists anew when they have worn
   /// out; finds the contacts with the walls.
@@ -87,7 +88,8 @@ class Bulk {
 
  private:
   [[nodiscard]] bool needs_loads() const noexcept { return named_ > 0 || !clumps_.empty(); }
-  void take_in(double time);
+  void take_in(double time, std::span<const Wall> walls);
+  [[nodiscard]] bool is_inside(std::size_t w, const Wall& wall, const Vec3& c);
   [[nodiscard]] double longest_stretch() const;
   void check_periods() const;
   [[nodiscard]] double margin(double dt);
@@ -114,6 +116,7 @@ class Bulk {
   contact::LoadRows load_;
   BulkWalls walls_;
   std::vector<Inserter> inserters_;
+  std::vector<std::optional<bool>> solid_;  // of each wall that was asked: does it bound a solid?
   std::optional<DomainSetup> domain_;
   Vec3 period_;  // 0 along open axes
   std::vector<std::size_t> place_of_named_;

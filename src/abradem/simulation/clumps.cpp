@@ -94,11 +94,15 @@ void Clumps::add(const Birth& birth, contact::Spheres& spheres, std::int32_t& ne
   c.position = birth.position;
   c.velocity = birth.velocity;
   c.turn = birth.turn;
+  const Vec3 w = c.turn.turn_back(birth.spin);
+  c.momentum = c.turn.turn({c.inertia.x * w.x, c.inertia.y * w.y, c.inertia.z * w.z});
   spheres.clump.resize(spheres.size(), -1);
   for (const geometry::Ball& b : shape.spheres) {
     contact::SphereRow s;
-    s.set_position(c.position + c.turn.turn(birth.radius * b.centre));
-    s.set_velocity(c.velocity);
+    const Vec3 arm = c.turn.turn(birth.radius * b.centre);
+    s.set_position(c.position + arm);
+    s.set_velocity(c.velocity + cross(birth.spin, arm));
+    s.set_spin(birth.spin);
     s.radius = birth.radius * b.radius;
     s.inverse_mass = 1.0 / c.mass;
     s.material = c.material;

@@ -80,7 +80,7 @@ class Clumps {
   struct Birth {
     std::int32_t shape = 0, material = 0;
     double radius = 0.0, density = 0.0;
-    Vec3 position, velocity;
+    Vec3 position, velocity, spin;
     geometry::Quaternion turn;
   };
   /// Adds one, and its spheres with the ids that follow `next_id`.

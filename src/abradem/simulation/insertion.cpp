@@ -157,22 +157,22 @@ Inserter::Inserter(const InsertionSetup& setup, int material, double density, st
       next_(setup.start) {
   if (shape != nullptr) shape_ = *shape;
   if (setup_.placed.empty()) {
-    if (shape_) refuse_too_small_a_volume();
+    refuse_too_small_a_volume();
     draw_next();
   }
 }
 
 void Inserter::refuse_too_small_a_volume() const {
   const VolumeSetup& v = setup_.volume;
-  const double R = shape_->bounding * largest_radius(setup_.size);
+  const double R = (shape_ ? shape_->bounding : 1.0) * largest_radius(setup_.size);
   const auto narrow = [&](double e) { return !(v.shape == VolumeShape::face && e == 0.0) && e < 2.0 * R; };
   const Vec3 e = v.high - v.low;
   const bool fits = v.shape == VolumeShape::cylinder ? v.radius >= R && norm(v.top - v.base) >= 2.0 * R
                                                      : !narrow(e.x) && !narrow(e.y) && !narrow(e.z);
   if (!fits)
-    throw InputError(fmt::format(
-        "insertion '{}': its volume is too small for one '{}', which turns in a sphere of {:.4g} mm radius",
-        setup_.name, shape_->name, 1e3 * R));
+    throw InputError(
+        fmt::format("insertion '{}': its volume is too small for one {} of {:.4g} mm radius", setup_.name,
+                    shape_ ? fmt::format("'{}', which turns in a sphere", shape_->name) : "sphere", 1e3 * R));
 }
 
 void Inserter::draw_next() {
@@ -215,12 +215,13 @@ bool Inserter::due(double time, double next_mass) const noexcept {
 }
 
 std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Spheres& present,
-                                                 const Vec3& period) {
+                                                 const Vec3& period, const Clear& clear) {
   std::vector<contact::SphereRow> made;
-  for (const Clumps::Birth& b : bring_in(time, present, period)) {
+  for (const Clumps::Birth& b : bring_in(time, present, period, clear)) {
     contact::SphereRow s;
     s.set_position(b.position);
     s.set_velocity(b.velocity);
+    s.set_spin(b.spin);
     s.radius = b.radius;
     s.inverse_mass = 1.0 / mass_of(b.radius, density_);
     s.material = material_;
@@ -230,15 +231,15 @@ std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Sph
 }
 
 std::vector<Clumps::Birth> Inserter::insert_clumps(double time, const contact::Spheres& present,
-                                                   const Vec3& period) {
-  return bring_in(time, present, period);
+                                                   const Vec3& period, const Clear& clear) {
+  return bring_in(time, present, period, clear);
 }
 
 std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Spheres& present,
-                                              const Vec3& period) {
+                                              const Vec3& period, const Clear& clear) {
   std::vector<Clumps::Birth> made;
-  const auto make = [&](const Vec3& p, double R, const Vec3& v) {
-    made.push_back({0, material_, R, density_, p, v, turn_});
+  const auto make = [&](const Vec3& p, double R, const Vec3& v, const Vec3& spin) {
+    made.push_back({0, material_, R, density_, p, v, spin, turn_});
     ++inserted_;
     mass_ += mass_of(R, density_);
   };
@@ -248,7 +249,7 @@ std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Sphere
         const double u = turns_.uniform(), v = turns_.uniform();
         turn_ = geometry::uniform_rotation(u, v, turns_.uniform());
       }
-      make(p.position, p.radius, p.velocity);
+      make(p.position, p.radius, p.velocity, p.spin);
     }
     next_ = std::numeric_limits<double>::infinity();
     return made;
@@ -285,12 +286,14 @@ std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Sphere
     waiting_ = true;
     for (int k = 0; k < tries && waiting_; ++k) {
       const Vec3 p = draw_place(shape_ ? radius_ * bounding : radius_);
-      if (!all_spheres(p, [&](const Vec3& c, double R) { return occupancy.is_free(c, R); })) continue;
+      if (!all_spheres(
+              p, [&](const Vec3& c, double R) { return occupancy.is_free(c, R) && (!clear || clear(c, R)); }))
+        continue;
       static_cast<void>(all_spheres(p, [&](const Vec3& c, double R) {
         add(c, R);
         return true;
       }));
-      make(p, radius_, setup_.velocity);
+      make(p, radius_, setup_.velocity, setup_.spin);
       draw_next();
       waiting_ = false;
     }
@@ -308,13 +311,16 @@ std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Sphere
 void Inserter::refuse_full_volume() const {
   throw InputError(fmt::format(
       "insertion '{}': its volume is full after {} of the {} particles to be placed there ({:.3g} kg, {:.1f} "
-      "% "
-      "of the volume; at random, without overlaps, {} can be reached). Enlarge the volume, lower the number, "
-      "or insert at a mass_rate",
+      "% of the volume; at random, without overlaps, {} can be reached, less where walls stand in it). "
+      "Enlarge "
+      "the volume, lower the number, or insert at a mass_rate{}",
       setup_.name, inserted_,
       setup_.number > 0 ? fmt::format("{}", setup_.number) : fmt::format("{:.4g} kg of", *setup_.mass), mass_,
       100.0 * mass_ / density_ / volume_of(setup_.volume),
-      shape_ ? "less than the 30 % of spheres" : "about 30 %"));
+      shape_ ? "less than the 30 % of spheres" : "about 30 %",
+      inserted_ == 0 ? ". Does it lie inside a wall? A closed mesh is a solid; a container of one layer has "
+                       "sides = \"both\""
+                     : ""));
 }
 
 }  // namespace abradem::simulation

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -25,11 +26,14 @@ namespace abradem::simulation {
 [[nodiscard]] double volume_of(const VolumeSetup& volume);
 
 /// Brings the particles of one [insertion] into the run: at once, or at a rate. Each is tried at random
-/// places of the volume until it overlaps no other; one that finds none waits, so that the size distribution
-/// is kept. Of a shape that is no sphere each is turned at random, uniformly over all rotations, and waits as
-/// it is turned; the sphere about it stays inside the volume, and its own spheres overlap no other.
+/// places of the volume until it overlaps no other and no wall; one that finds none waits, so that the size
+/// distribution is kept. Of a shape that is no sphere each is turned at random, uniformly over all rotations,
+/// and waits as it is turned; the sphere about it stays inside the volume, and its own spheres overlap no
+/// other.
 class Inserter {
  public:
+  using Clear = std::function<bool(const Vec3&, double)>;
+
   /// @param density of the material [kg/m^3]   @param stream number of the random stream; that of the turns
   /// is far from it   @param shape null: spheres
   /// @throws InputError when the largest does not go into the volume
@@ -39,11 +43,12 @@ class Inserter {
   /// Spheres that are due by a time and find a place. Call at steps where `wants` says so.
   /// @throws InputError at time 0 when those to be inserted at once do not all find a place
   /// @param period lengths after which space repeats itself; 0 along open axes [m]
+  /// @param clear does a sphere (centre, radius) overlap no wall? Empty: there are none
   [[nodiscard]] std::vector<contact::SphereRow> insert(double time, const contact::Spheres& present,
-                                                       const Vec3& period = {});
+                                                       const Vec3& period = {}, const Clear& clear = {});
   /// The same where a shape is given; the number of the shape is left open.
   [[nodiscard]] std::vector<Clumps::Birth> insert_clumps(double time, const contact::Spheres& present,
-                                                         const Vec3& period = {});
+                                                         const Vec3& period = {}, const Clear& clear = {});
   [[nodiscard]] bool wants(double time) const noexcept { return time >= next_; }
   /// Null: spheres.
   [[nodiscard]] const ClumpShape* shape() const noexcept { return shape_ ? &*shape_ : nullptr; }
@@ -75,7 +80,7 @@ class Inserter {
   void refuse_too_small_a_volume() const;
   [[noreturn]] void refuse_full_volume() const;
   [[nodiscard]] std::vector<Clumps::Birth> bring_in(double time, const contact::Spheres& present,
-                                                    const Vec3& period);
+                                                    const Vec3& period, const Clear& clear);
 
   InsertionSetup setup_;
   int material_;

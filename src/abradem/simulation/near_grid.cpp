@@ -68,4 +68,32 @@ std::optional<double> distance_within(const contact::SurfaceView& surface, const
   return found ? std::optional(std::sqrt(nearest2)) : std::nullopt;
 }
 
+bool is_behind(const contact::SurfaceView& surface, const Vec3& c) {
+  const Vec3 ray = normalized(Vec3{1.0, 0.137, 0.0713});  // along no face or edge that anyone draws
+  const geometry::BoundingBox box = surface.grid.box();
+  const double reach = norm(box.high - box.low) + norm(c - box.low) + surface.displaced;
+  const Vec3 end = c + reach * ray, grown{surface.displaced, surface.displaced, surface.displaced};
+  double nearest = reach;
+  bool behind = false;
+  surface.grid.visit_near(
+      c - grown, end + grown,
+      [&](const Vec3& centre, const Vec3& half) {  // the slab test
+        const Vec3 low = centre - half - grown, high = centre + half + grown;
+        const double in =
+            std::max({(low.x - c.x) / ray.x, (low.y - c.y) / ray.y, (low.z - c.z) / ray.z, 0.0});
+        const double out = std::min({(high.x - c.x) / ray.x, (high.y - c.y) / ray.y, (high.z - c.z) / ray.z});
+        return in <= out;
+      },
+      [&](geometry::Index t) {
+        const geometry::Triangle& v = surface.mesh.triangles[static_cast<std::size_t>(t)];
+        const auto at = [&](std::size_t k) { return surface.mesh.vertices[static_cast<std::size_t>(v[k])]; };
+        const Vec3 corners[]{at(0), at(1), at(2)};
+        const auto d = geometry::ray_meets(c, ray, corners);
+        if (!d || *d < 0.0 || *d >= nearest) return;
+        nearest = *d;
+        behind = dot(cross(corners[1] - corners[0], corners[2] - corners[0]), ray) > 0.0;
+      });
+  return behind;
+}
+
 }  // namespace abradem::simulation

@@ -37,4 +37,7 @@ class NearGrid {
 [[nodiscard]] std::optional<double> distance_within(const contact::SurfaceView& surface, const Vec3& c,
                                                     double reach);
 
+/// Does a ray from c meet the surface first from its back? Where the surface bounds a solid: c is inside it.
+[[nodiscard]] bool is_behind(const contact::SurfaceView& surface, const Vec3& c);
+
 }  // namespace abradem::simulation

@@ -219,11 +219,13 @@ struct PlacedSphere {
   Vec3 position;        ///< [m]
   double radius = 0.0;  ///< [m]
   Vec3 velocity;        ///< [m/s]
+  Vec3 spin{};          ///< [rad/s]
   bool operator==(const PlacedSphere&) const = default;
 
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
     archive("position", self.position)("radius", self.radius)("velocity", self.velocity);
+    archive("spin", self.spin);
   }
 };
 
@@ -256,6 +258,7 @@ struct InsertionSetup {
   std::optional<double> mass_rate;   ///< over time [kg/s]; default: all at the start
   double start = 0.0;                ///< time at which it begins [s]
   Vec3 velocity;                     ///< [m/s]
+  Vec3 spin;                         ///< [rad/s]
   std::vector<PlacedSphere> placed;  ///< given places, instead of volume, size and number
   std::string shape;  ///< name of a shape; empty: spheres. Radii are then those of spheres of equal volume
   bool operator==(const InsertionSetup&) const = default;

@@ -244,7 +244,7 @@ void Simulation::add_particles() {
     if (i.size.kind == SizeKind::single && i.size.radius == 0.0) i.size.radius = shape.radius;
   }
   if (particles_.size() > 1 || !setup_.insertions.empty())
-    bulk_.emplace(setup_, materials_, pairs_, particles_, shapes);
+    bulk_.emplace(setup_, materials_, pairs_, particles_, shapes, walls_);
 }
 
 /// A map for every guided sphere that some wall wears; as fine as a quarter of its first contact.

@@ -37,7 +37,7 @@ struct Ledger {
   double residual = 0.0;
   /// Largest of |tip_deposited - tip_law| and |tip_removed - tip_law| over tip_law; 0 without wear.
   double tip_residual = 0.0;
-  /// swept / law; 0 without wear or with a rigid surface.
+  /// swept / law, of the meshes that change their shape; 0 without wear or with rigid surfaces.
   double kappa = 0.0;
 
   template <typename Self, typename Archive>

@@ -112,10 +112,11 @@ void Simulation::limit_bulk_energy(Vec3 low, Vec3 high, bool bounded) {
     pull = std::max(pull, norm(setup_.run.gravity) + norm(particles_.load[p]) / particles_.mass[p]);
   }
   for (const InsertionSetup& i : setup_.insertions) {
-    hit = std::max(hit, norm(i.velocity));
+    // A spin becomes a speed where it meets something.
+    hit = std::max(hit, norm(i.velocity) + norm(i.spin) * largest_radius(i.size));
     for (const PlacedSphere& s : i.placed) {
       include(s.position);
-      hit = std::max(hit, norm(s.velocity));
+      hit = std::max(hit, norm(s.velocity) + norm(s.spin) * s.radius);
     }
     if (i.placed.empty()) {
       const geometry::BoundingBox box = box_of(i.volume);

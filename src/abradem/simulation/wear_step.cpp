@@ -268,7 +268,7 @@ double Simulation::plane_volume() const noexcept {
 
 Ledger Simulation::ledger() {
   Ledger ledger;
-  double conserving_law = 0.0, conserving_swept = 0.0;
+  double conserving_law = 0.0, conserving_swept = 0.0, shaping_law = 0.0;
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     const Wall& wall = walls_[w];
     if (wall.is_plane()) {
@@ -289,6 +289,7 @@ Ledger Simulation::ledger() {
       }
     const double swept = wall.surface().swept_volume();
     ledger.law += law_[w];
+    if (wall.setup().deformation != DeformationRule::none) shaping_law += law_[w];
     ledger.deposited += wall.surface().deposited_volume();
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       ledger.deposited += sphere_walls_[p * walls_.size() + w].pending_volume();
@@ -300,7 +301,7 @@ Ledger Simulation::ledger() {
     ledger.piled += wall.surface().raised_volume();
     ledger.unpiled += unpiled;
     if (wall.setup().deformation == DeformationRule::conserving)
-      conserving_law += law_[w] + unpiled, conserving_swept += swept;
+      conserving_law += law_[w] + unpiled, conserving_swept += swept + wall.surface().waiting_volume();
   }
   if (const double groove = ledger.law + ledger.displaced; groove > 0.0) {
     ledger.residual = std::max(std::abs(ledger.deposited - ledger.unpiled - ledger.law),
@@ -310,7 +311,7 @@ Ledger Simulation::ledger() {
       ledger.residual =
           std::max(ledger.residual, std::abs(ledger.piled + ledger.unpiled - ledger.displaced) / groove);
   }
-  if (ledger.law > 0.0) ledger.kappa = ledger.swept / ledger.law;
+  if (shaping_law > 0.0) ledger.kappa = ledger.swept / shaping_law;
   for (std::size_t p = 0; p < tips_.size(); ++p) {
     if (!tips_[p]) continue;
     double pending = 0.0;

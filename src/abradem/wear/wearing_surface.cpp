@@ -323,6 +323,13 @@ double WearingSurface::swept_volume() const {
   return sum;
 }
 
+double WearingSurface::waiting_volume() const noexcept {
+  double sum = 0.0;
+  for (const Index v : touched_) sum += pending_[at(v)];
+  for (const Index v : touched_piles_) sum -= piled_[at(v)];
+  return sum;
+}
+
 const std::vector<Index>& WearingSurface::worn_triangles() const {
   if (!worn_known_) {
     worn_.clear();

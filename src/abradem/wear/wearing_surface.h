@@ -100,6 +100,8 @@ class WearingSurface {
   /// Volume between the surface as it was and as it is, by geometry alone [m^3]; see swept_between. Where
   /// wear moved an open border that is not flat, the sum over the updates, since there the path matters.
   [[nodiscard]] double swept_volume() const;
+  /// Volume that the next deform_conserving will sweep [m^3].
+  [[nodiscard]] double waiting_volume() const noexcept;
   /// Triangles with a vertex that was displaced, ascending. Costs what is new since the last call, not the
   /// mesh.
   [[nodiscard]] const std::vector<Index>& worn_triangles() const;

@@ -11,12 +11,14 @@
 #include <numbers>
 
 #include "abradem/io/case_problems.h"
+#include "support/case_texts.h"
 #include "support/says.h"
 
 namespace abradem::io {
 namespace {
 
 using test::contains;
+using test::replaced;
 
 namespace fs = std::filesystem;
 using CaseSetup = simulation::Setup;
@@ -65,12 +67,6 @@ std::string complaint_about_example(const std::string& override) {
   } catch (const InputError& error) {
     return error.what();
   }
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), by);
 }
 
 TEST(CaseFile, TheExampleSaysWhatItSays) {

@@ -8,12 +8,14 @@
 
 #include "abradem/io/case_file.h"
 #include "abradem/study/variations.h"
+#include "support/case_texts.h"
 #include "support/says.h"
 
 namespace abradem::io {
 namespace {
 
 using test::contains;
+using test::replaced;
 
 std::string pin_on_disc() {
   std::ifstream file(ABRADEM_SOURCE_DIR "/cases/pin-on-disc.toml", std::ios::binary);
@@ -44,12 +46,6 @@ std::string complaint(const std::string& study, const std::vector<std::string>& 
   } catch (const InputError& error) {
     return error.what();
   }
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), by);
 }
 
 /// "study.toml:LINE:" of the line that holds this text.

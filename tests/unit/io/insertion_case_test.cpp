@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <string>
 
 #include "abradem/core/error.h"
@@ -141,7 +142,9 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"{ kind = \"normal\", mean = \"3 mm\", sd = \"0.3 mm\", low = \"2 mm\", high = \"4 mm\" }",
              "{ radius = \"30 um\" }", "wall 'tray' is 400 mm wide and 'feed' has a radius of"},
         Slip{"number = 500", "number = 500\nvelocity = [0, 0, -500]",
-             "particles of 'feed' start at 500 m/s: is their velocity in mm/s?"}));
+             "particles of 'feed' start at 500 m/s: is their velocity in mm/s?"},
+        Slip{"number = 500", "number = 500\nspin = [0, 50000, 0]",
+             "the surface of particles of 'feed' moves at 200 m/s by their spin"}));
 
 /// Sizes in millimetres read as metres cannot lie in the volume: refused.
 TEST(InsertionCase, RefusesSizesInMillimetresReadAsMetres) {
@@ -165,6 +168,7 @@ TEST(InsertionCase, ReadsPlacesAndSizesFromFiles) {
 material = "glass"
 volume = { shape = "file", file = "places.csv" }
 velocity = [0, 0, -1]
+spin = [0, "60 rpm", "180 deg/s"]
 [insertion.drawn]
 material = "glass"
 number = 3
@@ -177,9 +181,41 @@ volume = { low = [0, 0, 1], high = [1, 1, 2] }
   EXPECT_DOUBLE_EQ(setup.insertions[0].placed[1].position.x, -0.01);
   EXPECT_DOUBLE_EQ(setup.insertions[0].placed[1].radius, 2.5e-3);
   EXPECT_DOUBLE_EQ(setup.insertions[0].placed[1].velocity.z, -1.0);
+  EXPECT_DOUBLE_EQ(setup.insertions[0].placed[1].spin.y, 2.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(setup.insertions[0].placed[1].spin.z, std::numbers::pi);
   EXPECT_EQ(setup.insertions[1].size.shares, (std::vector<double>{3.0, 1.0}));
+  // Spins of their own, all three columns or none.
+  std::ofstream(folder / "places.csv") << "x_mm,y_mm,z_mm,radius_mm,spin_x_rad_per_s,spin_y_rad_per_s,"
+                                          "spin_z_rad_per_s\n1,2,30,3,1,2,3\n-10,2,30,2.5,4,5,6\n";
+  read_insertion_files(setup);
+  EXPECT_EQ(setup.insertions[0].placed[1].spin, (Vec3{4, 5, 6}));
+  EXPECT_DOUBLE_EQ(setup.insertions[0].placed[1].velocity.z, -1.0);
+  std::ofstream(folder / "places.csv") << "x_mm,y_mm,z_mm,radius_mm,spin_y_rad_per_s\n1,2,30,3,1\n";
+  EXPECT_THROW(read_insertion_files(setup), IoError);
   std::ofstream(folder / "places.csv") << "x_mm,y_mm,z_mm,radius_mm\n1,2,30,0\n";
-  EXPECT_THROW(read_insertion_files(setup), InputError);
+  EXPECT_THROW(read_insertion_files(setup), IoError);
+  // As a spreadsheet writes it: sieves by mass and diameter.
+  std::ofstream(folder / "places.csv") << "x_mm,y_mm,z_mm,radius_mm\n1,2,30,3\n";
+  std::ofstream(folder / "sizes.csv")
+      << "# sieves\r\nDiameter [um];mass share\r\n2000;1\r\n4000;8\r\n9000;0\r\n";
+  read_insertion_files(setup);
+  EXPECT_EQ(setup.insertions[1].size.radii, (std::vector<double>{1e-3, 2e-3}));
+  ASSERT_EQ(setup.insertions[1].size.shares.size(), 2u);
+  EXPECT_DOUBLE_EQ(setup.insertions[1].size.shares[1] / setup.insertions[1].size.shares[0], 1.0);
+  const auto refused = [&](const char* sizes, const char* words) {
+    std::ofstream(folder / "sizes.csv") << sizes;
+    try {
+      read_insertion_files(setup);
+      ADD_FAILURE() << sizes;
+    } catch (const IoError& e) {
+      EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+    }
+  };
+  refused("radius_mm,share\n1,1\n2,-1\n", "sizes.csv:3:3: share must be >= 0");
+  refused("radius_mm,share\n1,0\n", "all shares are 0");
+  refused("radius_mm,share\n", "has no rows");
+  refused("radius,share\n1,1\n", "has no unit");
+  refused("radius_mm\n1\n", "no column 'share'");
   std::filesystem::remove_all(folder);
 }
 

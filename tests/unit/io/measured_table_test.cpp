@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -52,7 +53,14 @@ TEST_F(MeasuredTableFile, ReadsWhatSpreadsheetsAndPeopleWrite) {
 }
 
 TEST_F(MeasuredTableFile, ReadsUnitsBehindTheName) {
-  const MeasuredTable t(write("t.csv", "force_N,volume_mm3,wear_track\n5,0.5,1"));
+  const MeasuredTable t(write("t.csv",
+                              "force_N,volume_mm3,wear_track,velocity_x_mm_per_s,wear_per_pass\n"
+                              "5,0.5,1,20,3"));
+  EXPECT_EQ(t.quantities(std::array{"velocity_x"sv}, {.length = 1, .time = -1}), (std::vector<double>{0.02}));
+  EXPECT_TRUE(t.find(std::array{"wear_per_pass"sv}));
+  const MeasuredTable gap(write("t.csv", "force_N\nnan\n5\n"));
+  EXPECT_THROW((void)gap.quantities(kForceNames, kForce), IoError);
+  EXPECT_TRUE(std::isnan(gap.quantities(kForceNames, kForce, true)[0]));
   EXPECT_EQ(t.quantities(kForceNames, kForce), (std::vector<double>{5.0}));
   EXPECT_EQ(t.quantities(kVolumeNames, kVolume), (std::vector<double>{0.5 / 1e9}));
   EXPECT_TRUE(t.find(std::array{"wear_track"sv}));

@@ -120,9 +120,11 @@ TEST_F(MotionCase, SaysWhatIsWrongWithAFileAndWhere) {
   expect_in(refusal(motion), "ride.csv:4: the times must ascend: 0.5 s comes after 1 s");
   expect_in(refusal(motion), "case.toml:19:35: error");  // the place of the file's name
   write("time_s,z\n0,0\n");
-  expect_in(refusal(motion), "ride.csv:1: column 2 is 'z'; a table of a motion has time_s, x_mm");
+  expect_in(refusal(motion), "ride.csv:1:8: column 'z' has no unit; write a length");
+  write("time_s,w_mm\n0,0\n");
+  expect_in(refusal(motion), "ride.csv: column 2 is 'w_mm'; a table of a motion has time_s, x_mm");
   write("time_s,z_mm\n0,abc\n");
-  expect_in(refusal(motion), "ride.csv:2: column 'z_mm': 'abc' is not a number");
+  expect_in(refusal(motion), "ride.csv:2:3: column 'z_mm': 'abc' is not a number");
   write("z_mm\n0\n");
   expect_in(refusal(motion), "there is no column time_s");
   write("time_s,z_mm\n");

@@ -6,6 +6,8 @@
 
 #include "abradem/core/error.h"
 #include "abradem/io/case_file.h"
+#include "support/case_texts.h"
+#include "support/says.h"
 
 namespace abradem::io {
 namespace {
@@ -60,6 +62,30 @@ TEST(WallCase, ContactIsAutoWhereAllParticlesAreInNumbers) {
   EXPECT_EQ(read(plate + "sides = \"both\"\n" + kGrains).walls[0].contact, ContactRule::resolved);
   const simulation::Setup setup = read(plate + kGrains);
   EXPECT_EQ(parse_case(resolved_case(setup), "resolved", ".").setup, setup);
+}
+
+/// Contacts that last beyond zero overlap are followed by points.
+TEST(WallCase, JkrTakesTheResolvedRule) {
+  const auto with_jkr = [](const std::string& rest, const char* more = "") {
+    return test::replaced(
+        kHead + rest, "static_friction = 0.3",
+        std::string("static_friction = 0.3\ncohesion = \"jkr\"\nwork_of_adhesion = 0.1\n") + more);
+  };
+  const auto refused = [](const std::string& text) {
+    try {
+      static_cast<void>(parse_case(text, "case.toml", "."));
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string plate = kPlate;
+  EXPECT_EQ(parse_case(with_jkr(plate + kGrains), "case.toml", ".").setup.walls[0].contact,
+            ContactRule::resolved);
+  EXPECT_TRUE(test::says(refused(with_jkr(plate + "contact = \"auto\"\n" + kGrains)),
+                         {"case.toml:18:11:", "JKR contacts with wall 'floor'", "contact = \"resolved\""}));
+  EXPECT_TRUE(test::says(refused(with_jkr(plate + kGrains, "law = \"linear\"\nnormal_stiffness = 1e4\n")),
+                         {"case.toml:9:", "with law = \"linear\" take sjkr"}));
 }
 
 TEST(WallCase, ASheetTakesTheResolvedRuleAndKeepsItsShape) {

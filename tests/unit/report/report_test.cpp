@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abradem/report/report.h"
 
+#include <algorithm>
+
 #include "abradem/report/sections.h"
+#include "abradem/report/sweep_table.h"
 #include "run_fixture.h"
 
 namespace abradem::report {
@@ -132,6 +135,34 @@ TEST_F(Report, ShowsParticlesInsteadOfAGrooveWhereARunHasThemInNumbers) {
   EXPECT_FALSE(has(html, ">Groove depth<"));
   write_report(folder_);
   EXPECT_TRUE(has(read_text(folder_ / "tables/mass-flow.csv"), "0.4"));  // kg/s
+  EXPECT_TRUE(has(html, "20 particles; 0.4000 kg/s on average since 0 s"));
+  EXPECT_TRUE(has(html, "After 1 revolution the walls have lost "));
+  EXPECT_TRUE(has(html, "<b>Figure 1.</b> <b>Wear volume.</b>"));
+
+  // A table of runs has them too, where one has.
+  const SweepTable sweep = make_sweep_table({"a"}, {{"0001", "completed", {"1"}, folder_}});
+  const auto of_run = [&](const char* column) {
+    const auto found = std::ranges::find(sweep.results, column, &SweepColumn::title);
+    return found == sweep.results.end() ? -1.0 : found->number[0];
+  };
+  EXPECT_EQ(of_run("particles"), 80.0);
+  EXPECT_DOUBLE_EQ(of_run("outflow_kg_per_s"), 0.4);
+
+  // Walls that keep their shape; then nothing worn; then a run that failed.
+  std::string text = manifest("");
+  const auto with = [&](const std::string& was, const std::string& is) {
+    text.replace(text.find(was), was.size(), is);
+    write_text(folder_ / "run.json", text);
+    return make_page(read_run_folder(folder_));
+  };
+  html = with("\"kappa\": 1.0", "\"kappa\": 0.0");
+  EXPECT_TRUE(has(html, "the wear laws have taken 0.05000 mm³ from walls that keep their shape"));
+  EXPECT_FALSE(has(html, "κ, mesh over law"));
+  html = with("\"law_volume_mm3\": 0.05", "\"law_volume_mm3\": 0.0");
+  EXPECT_TRUE(has(html, "After 1 revolution no wall has worn."));
+  EXPECT_FALSE(has(html, "Wear volume"));
+  html = with("\"completed\"", "\"failed\", \"error\": \"particle 7 is <gone>\"");
+  EXPECT_TRUE(has(html, "The run failed: particle 7 is &lt;gone&gt;. What follows is the last good state."));
 }
 
 TEST_F(Report, ShowsThePinAndTheRidgesOnlyWhereThereAreSome) {

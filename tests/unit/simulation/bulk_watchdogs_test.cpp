@@ -2,6 +2,7 @@
 // Each watchdog over particles in numbers stops a run that is made to trigger it, and says why.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -39,12 +40,86 @@ simulation::Setup placed(const std::vector<PlacedSphere>& spheres, double time_s
   return setup;
 }
 
+double mass() { return 2500.0 * 4.0 / 3.0 * std::numbers::pi * R * R * R; }
+
+/// A plate in the middle of the volume, and a plane across it: what comes in touches neither, now and later.
+TEST(BulkInsertion, LeavesRoomForTheWalls) {
+  simulation::Setup setup = placed({}, 5e-6);
+  InsertionSetup in = setup.insertions[0];
+  in.size.radius = R;
+  in.volume.high = {0.05, 0.05, 0.05};
+  in.number = 120;
+  setup.insertions = {in, in};
+  setup.insertions[1].number = 20;
+  setup.insertions[1].mass_rate = 20.0 * mass() / 1e-4;
+  setup.walls = {test::plane("slope", {0, 0, 0.005}, {0.1, 0, 1}), test::plane("plate", {}, {0, 0, 1})};
+  MeshSetup& plate = setup.walls[1].mesh;
+  plate.shape = MeshShape::plate;
+  plate.length = plate.width = 0.1;
+  plate.size = 0.03;
+  plate.position = {0.025, 0.025, 0.025};
+  plate.rotation = {0, 0.4, 0};
+  Simulation run(setup);
+  while (run.time() < 1.1e-3) run.step();  // tried anew every millisecond
+  const contact::Spheres& spheres = run.bulk()->spheres();
+  ASSERT_EQ(spheres.size(), 140u);
+  const Vec3 n = normalized(Vec3{0.1, 0, 1}), m{std::sin(0.4), 0, std::cos(0.4)};
+  for (const contact::SphereRow& s : spheres.row) {
+    EXPECT_GE(dot(s.position() - Vec3{0, 0, 0.005}, n), R);
+    EXPECT_GE(std::abs(dot(s.position() - plate.position, m)), R);
+  }
+}
+
+/// Nothing is put into a closed solid, however large against the particles; the same mesh inside out is a
+/// container.
+TEST(BulkInsertion, KeepsOutOfSolids) {
+  const auto cube = [](double from, double to, bool inside_out) {
+    geometry::TriangleMesh mesh;
+    for (const double z : {from, to})
+      for (const double y : {from, to})
+        for (const double x : {from, to}) mesh.vertices.push_back({x, y, z});
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    if (inside_out)
+      for (geometry::Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    return mesh;
+  };
+  simulation::Setup setup = placed({}, 1e-6);
+  InsertionSetup& in = setup.insertions[0];
+  in.size.radius = R;
+  in.volume.high = {0.05, 0.05, 0.05};
+  in.number = 200;
+  setup.walls = {test::plane("block", {}, {0, 0, 1})};
+  setup.walls[0].mesh.shape = MeshShape::file;
+  setup.walls[0].contact = ContactRule::resolved;
+  const auto inside = [&](bool inside_out) {
+    const Simulation run(setup,
+                         [&](const MeshSetup&, std::uint64_t) { return cube(0.01, 0.04, inside_out); });
+    const contact::Spheres& spheres = run.bulk()->spheres();
+    return std::ranges::count_if(spheres.row, [](const contact::SphereRow& s) {
+      const Vec3 p = s.position();
+      return std::min({p.x, p.y, p.z}) > 0.01 && std::max({p.x, p.y, p.z}) < 0.04;
+    });
+  };
+  EXPECT_EQ(inside(false), 0);
+  EXPECT_GT(inside(true), 10);
+  setup.walls[0].sides = Sides::both;  // a container of one layer
+  EXPECT_GT(inside(false), 10);
+  setup.walls[0].sides = Sides::front;
+  setup.insertions[0].volume.low = {0.015, 0.015, 0.015};
+  setup.insertions[0].volume.high = {0.035, 0.035, 0.035};
+  try {
+    static_cast<void>(inside(false));
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_TRUE(says(e.what(), {"full after 0 of the 200", "A closed mesh is a solid", "sides = \"both\""}));
+  }
+}
+
 simulation::Setup with_floor(simulation::Setup setup) {
   setup.walls.push_back(test::plane("floor", {0, 0, 0}, {0, 0, 1}));
   return setup;
 }
-
-double mass() { return 2500.0 * 4.0 / 3.0 * std::numbers::pi * R * R * R; }
 
 constexpr double kOverlap = 1e-6;
 
@@ -217,7 +292,13 @@ TEST(BulkWatchdog, TooDeepAnOverlapIsNamedWithTheWall) {
   setup.walls[0].mesh.size = 4e-3;
   setup.walls[0].contact = ContactRule::resolved;
   Simulation mesh(setup);
-  EXPECT_TRUE(says(stopped(mesh, 1), {"particle 0 at (", "its overlap with wall 'floor' is 0.22 mm"}));
+  EXPECT_TRUE(says(stopped(mesh, 1),
+                   {"particle 0 at (", "its overlap with wall 'floor' is 0.22 mm", "Shorten the time step"}));
+  // From behind a mesh whose normals point the other way.
+  setup.insertions[0].placed[0].position.z = 0.3 * R;
+  Simulation behind(setup);
+  EXPECT_TRUE(says(stopped(behind, 1), {"its overlap with wall 'floor' is 1.4 mm",
+                                        "Do the normals of its triangles", "sides = \"both\""}));
 }
 
 TEST(BulkWatchdog, TwoSpheresInOneAnotherStopTheRun) {

@@ -71,6 +71,31 @@ TEST(Inserter, PlacesInsideATiltedCylinderAndBesideWhatIsThere) {
   EXPECT_GE(smallest_gap(spheres), 0.0);
 }
 
+/// Sizes of a table are not known before it is read.
+TEST(Inserter, SaysWhenOneOfATableDoesNotFit) {
+  InsertionSetup setup = thousand_in_a_box();
+  setup.size.kind = SizeKind::table;
+  setup.size.radii = {1e-3, 60e-3};
+  setup.size.shares = {1.0, 1.0};
+  try {
+    static_cast<void>(Inserter(setup, 0, 2500.0, 1, 1));
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("too small for one sphere of 60 mm radius"), std::string::npos);
+  }
+}
+
+TEST(Inserter, LeavesOutWhereWallsStand) {
+  Inserter inserter(thousand_in_a_box(), 0, 2500.0, 1, 1);
+  const auto right = [](const Vec3& c, double R) { return c.x - R > 0.05; };
+  const auto spheres = inserter.insert(0.0, {}, {}, right);
+  ASSERT_EQ(spheres.size(), 1000u);
+  for (const contact::SphereRow& s : spheres) EXPECT_TRUE(right(s.position(), s.radius));
+  EXPECT_THROW(static_cast<void>(Inserter(thousand_in_a_box(), 0, 2500.0, 1, 1)
+                                     .insert(0.0, {}, {}, [](const Vec3&, double) { return false; })),
+               InputError);
+}
+
 TEST(Inserter, SaysHowFarItCameWhenTheVolumeIsFull) {
   InsertionSetup setup = thousand_in_a_box();
   setup.number = 4000;

@@ -255,6 +255,19 @@ TEST(Run, WithoutWearCoefficientLeavesTheMeshBitIdentical) {
   }
 }
 
+/// Ended by hand between two updates of the shape: what waits for the next one is no error.
+TEST(Run, ClosesItsLedgerBetweenUpdatesOfTheShape) {
+  test::PinOnDisc pin = small_case();
+  simulation::Setup setup = pin.setup();
+  setup.walls[0].deform_every = 7;
+  Simulation run(setup);
+  for (int k = 0; k < 10; ++k) run.step();
+  const Ledger ledger = run.ledger();
+  ASSERT_GT(ledger.law, 0.0);
+  EXPECT_LT(ledger.swept, 0.9 * ledger.law);
+  EXPECT_LT(ledger.residual, 1e-9);
+}
+
 TEST(Run, WithoutDeformationBooksWearAndKeepsTheShape) {
   test::PinOnDisc pin = small_case();
   pin.deformation = DeformationRule::none;
