@@ -149,41 +149,41 @@ double draw_radius(const SizeSetup& size, core::RandomStream& random) {
 
 Inserter::Inserter(const InsertionSetup& setup, int material, double density, std::uint64_t seed,
                    std::uint64_t stream, const ClumpShape* shape)
-    : setup_(setup),
+    : setup_(&setup),
       material_(material),
       density_(density),
       random_(seed, stream),
       turns_(seed, stream + 1'000'000),
       next_(setup.start) {
   if (shape != nullptr) shape_ = *shape;
-  if (setup_.placed.empty()) {
+  if (setup_->placed.empty()) {
     refuse_too_small_a_volume();
     draw_next();
   }
 }
 
 void Inserter::refuse_too_small_a_volume() const {
-  const VolumeSetup& v = setup_.volume;
-  const double R = (shape_ ? shape_->bounding : 1.0) * largest_radius(setup_.size);
+  const VolumeSetup& v = setup_->volume;
+  const double R = (shape_ ? shape_->bounding : 1.0) * largest_radius(setup_->size);
   const auto narrow = [&](double e) { return !(v.shape == VolumeShape::face && e == 0.0) && e < 2.0 * R; };
   const Vec3 e = v.high - v.low;
   const bool fits = v.shape == VolumeShape::cylinder ? v.radius >= R && norm(v.top - v.base) >= 2.0 * R
                                                      : !narrow(e.x) && !narrow(e.y) && !narrow(e.z);
   if (!fits)
     throw InputError(
-        fmt::format("insertion '{}': its volume is too small for one {} of {:.4g} mm radius", setup_.name,
+        fmt::format("insertion '{}': its volume is too small for one {} of {:.4g} mm radius", setup_->name,
                     shape_ ? fmt::format("'{}', which turns in a sphere", shape_->name) : "sphere", 1e3 * R));
 }
 
 void Inserter::draw_next() {
-  radius_ = draw_radius(setup_.size, random_);
+  radius_ = draw_radius(setup_->size, random_);
   if (!shape_) return;
   const double u = turns_.uniform(), v = turns_.uniform();
   turn_ = geometry::uniform_rotation(u, v, turns_.uniform());
 }
 
 Vec3 Inserter::draw_place(double radius) {
-  const VolumeSetup& v = setup_.volume;
+  const VolumeSetup& v = setup_->volume;
   if (v.shape != VolumeShape::cylinder) {
     const auto margin = [&](double low, double high) {
       return high > low ? radius : 0.0;
@@ -201,17 +201,17 @@ Vec3 Inserter::draw_place(double radius) {
 }
 
 bool Inserter::restored() const noexcept {
-  const bool drawn = !setup_.placed.empty() ||
-                     (radius_ >= smallest_radius(setup_.size) && radius_ <= largest_radius(setup_.size));
+  const bool drawn = !setup_->placed.empty() ||
+                     (radius_ >= smallest_radius(setup_->size) && radius_ <= largest_radius(setup_->size));
   return drawn && mass_ >= 0.0 && std::isfinite(mass_) && next_ >= 0.0 &&
          std::abs(turn_.norm2() - 1.0) < 1e-6;
 }
 
 bool Inserter::due(double time, double next_mass) const noexcept {
-  if (!setup_.placed.empty()) return inserted_ < setup_.placed.size();
-  if (setup_.number > 0 && inserted_ >= setup_.number) return false;
-  if (setup_.mass && mass_ + 0.5 * next_mass > *setup_.mass) return false;
-  return !setup_.mass_rate || mass_ + next_mass <= *setup_.mass_rate * (time - setup_.start);
+  if (!setup_->placed.empty()) return inserted_ < setup_->placed.size();
+  if (setup_->number > 0 && inserted_ >= setup_->number) return false;
+  if (setup_->mass && mass_ + 0.5 * next_mass > *setup_->mass) return false;
+  return !setup_->mass_rate || mass_ + next_mass <= *setup_->mass_rate * (time - setup_->start);
 }
 
 std::vector<contact::SphereRow> Inserter::insert(double time, const contact::Spheres& present,
@@ -243,8 +243,8 @@ std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Sphere
     ++inserted_;
     mass_ += mass_of(R, density_);
   };
-  if (!setup_.placed.empty()) {
-    for (const PlacedSphere& p : setup_.placed) {
+  if (!setup_->placed.empty()) {
+    for (const PlacedSphere& p : setup_->placed) {
       if (shape_) {
         const double u = turns_.uniform(), v = turns_.uniform();
         turn_ = geometry::uniform_rotation(u, v, turns_.uniform());
@@ -254,12 +254,12 @@ std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Sphere
     next_ = std::numeric_limits<double>::infinity();
     return made;
   }
-  const double largest = largest_radius(setup_.size), bounding = shape_ ? shape_->bounding : 1.0;
-  const geometry::BoundingBox box = box_of(setup_.volume);
+  const double largest = largest_radius(setup_->size), bounding = shape_ ? shape_->bounding : 1.0;
+  const geometry::BoundingBox box = box_of(setup_->volume);
   Occupancy occupancy(shape_ ? largest * shape_->largest : largest);
-  const double beyond = setup_.volume.shape == VolumeShape::face ? bounding * largest
-                                                                 : 0.0;  // bodies lie inside, but of a face
-  const auto add = [&](const Vec3& centre, double R) {                   // and its images
+  const double beyond = setup_->volume.shape == VolumeShape::face ? bounding * largest
+                                                                  : 0.0;  // bodies lie inside, but of a face
+  const auto add = [&](const Vec3& centre, double R) {                    // and its images
     const auto count = [](double length) { return length > 0.0 ? 1 : 0; };
     for (int i = -count(period.x); i <= count(period.x); ++i)
       for (int j = -count(period.y); j <= count(period.y); ++j)
@@ -282,7 +282,7 @@ std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Sphere
   waiting_ = false;
   while (!waiting_ && due(time, mass_of(radius_, density_))) {
     // Finds a gap of a 1/5000 of the volume nearly always; at a rate there will be another try soon.
-    const int tries = setup_.mass_rate ? 1000 : 20000;
+    const int tries = setup_->mass_rate ? 1000 : 20000;
     waiting_ = true;
     for (int k = 0; k < tries && waiting_; ++k) {
       const Vec3 p = draw_place(shape_ ? radius_ * bounding : radius_);
@@ -293,17 +293,17 @@ std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Sphere
         add(c, R);
         return true;
       }));
-      make(p, radius_, setup_.velocity, setup_.spin);
+      make(p, radius_, setup_->velocity, setup_->spin);
       draw_next();
       waiting_ = false;
     }
   }
-  if (waiting_ && !setup_.mass_rate) refuse_full_volume();
+  if (waiting_ && !setup_->mass_rate) refuse_full_volume();
   // At a rate: again when a sphere of the largest size may have cleared its place.
-  const double pause = setup_.mass_rate ? std::max(mass_of(radius_, density_) / *setup_.mass_rate, 1e-3)
-                                        : std::numeric_limits<double>::infinity();
-  const bool done = (setup_.number > 0 && inserted_ >= setup_.number) ||
-                    (setup_.mass && mass_ + 0.5 * mass_of(radius_, density_) > *setup_.mass);
+  const double pause = setup_->mass_rate ? std::max(mass_of(radius_, density_) / *setup_->mass_rate, 1e-3)
+                                         : std::numeric_limits<double>::infinity();
+  const bool done = (setup_->number > 0 && inserted_ >= setup_->number) ||
+                    (setup_->mass && mass_ + 0.5 * mass_of(radius_, density_) > *setup_->mass);
   next_ = done ? std::numeric_limits<double>::infinity() : time + pause;
   return made;
 }
@@ -314,9 +314,9 @@ void Inserter::refuse_full_volume() const {
       "% of the volume; at random, without overlaps, {} can be reached, less where walls stand in it). "
       "Enlarge "
       "the volume, lower the number, or insert at a mass_rate{}",
-      setup_.name, inserted_,
-      setup_.number > 0 ? fmt::format("{}", setup_.number) : fmt::format("{:.4g} kg of", *setup_.mass), mass_,
-      100.0 * mass_ / density_ / volume_of(setup_.volume),
+      setup_->name, inserted_,
+      setup_->number > 0 ? fmt::format("{}", setup_->number) : fmt::format("{:.4g} kg of", *setup_->mass),
+      mass_, 100.0 * mass_ / density_ / volume_of(setup_->volume),
       shape_ ? "less than the 30 % of spheres" : "about 30 %",
       inserted_ == 0 ? ". Does it lie inside a wall? A closed mesh is a solid; a container of one layer has "
                        "sides = \"both\""

@@ -34,8 +34,8 @@ class Inserter {
  public:
   using Clear = std::function<bool(const Vec3&, double)>;
 
-  /// @param density of the material [kg/m^3]   @param stream number of the random stream; that of the turns
-  /// is far from it   @param shape null: spheres
+  /// @param setup must outlive this; it is not copied   @param density of the material [kg/m^3]   @param
+  /// stream number of the random stream; that of the turns is far from it   @param shape null: spheres
   /// @throws InputError when the largest does not go into the volume
   Inserter(const InsertionSetup& setup, int material, double density, std::uint64_t seed,
            std::uint64_t stream, const ClumpShape* shape = nullptr);
@@ -54,10 +54,10 @@ class Inserter {
   [[nodiscard]] const ClumpShape* shape() const noexcept { return shape_ ? &*shape_ : nullptr; }
   /// Radius of the smallest sphere that can come in, a clump's among them [m].
   [[nodiscard]] double smallest_sphere() const noexcept {
-    return smallest_radius(setup_) * (shape_ ? shape_->smallest : 1.0);
+    return smallest_radius(*setup_) * (shape_ ? shape_->smallest : 1.0);
   }
 
-  [[nodiscard]] const InsertionSetup& setup() const noexcept { return setup_; }
+  [[nodiscard]] const InsertionSetup& setup() const noexcept { return *setup_; }
   [[nodiscard]] std::uint64_t inserted() const noexcept { return inserted_; }
   [[nodiscard]] double inserted_mass() const noexcept { return mass_; }
   /// Spheres due that found no place in their last try.
@@ -82,7 +82,7 @@ class Inserter {
   [[nodiscard]] std::vector<Clumps::Birth> bring_in(double time, const contact::Spheres& present,
                                                     const Vec3& period, const Clear& clear);
 
-  InsertionSetup setup_;
+  const InsertionSetup* setup_;  // of the run: its list of places may be long
   int material_;
   double density_;
   core::RandomStream random_;

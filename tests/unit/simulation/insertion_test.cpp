@@ -86,7 +86,8 @@ TEST(Inserter, SaysWhenOneOfATableDoesNotFit) {
 }
 
 TEST(Inserter, LeavesOutWhereWallsStand) {
-  Inserter inserter(thousand_in_a_box(), 0, 2500.0, 1, 1);
+  const InsertionSetup setup = thousand_in_a_box();
+  Inserter inserter(setup, 0, 2500.0, 1, 1);
   const auto right = [](const Vec3& c, double R) { return c.x - R > 0.05; };
   const auto spheres = inserter.insert(0.0, {}, {}, right);
   ASSERT_EQ(spheres.size(), 1000u);
