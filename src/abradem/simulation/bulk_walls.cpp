@@ -230,8 +230,12 @@ bool BulkWalls::compute(std::size_t k, const contact::SphereRow& s, const Surrou
   const geometry::Pose& pose = around.poses[at(m.wall)];
   const material::PairProperties& pair = around.pair(static_cast<int>(s.material), wall.material());
   m.contact->find(wall, pose.to_body(s.position()), s.radius, pair);
-  m.way = m.contact->free_way(wall);
-  m.clear = std::max(m.clear, m.come + m.way.least());
+  if (m.contact->touches().empty()) {
+    m.way = m.contact->free_way(wall);
+    m.clear = std::max(m.clear, m.come + m.way.least());
+  } else {
+    m.way.any = 0.0;
+  }
   if (m.contact->touches().empty() && m.load.stiffening == 0.0 && m.load.force() == Vec3{}) return false;
   const SphereState sphere = state_of(s);
   const ForceAndTorque f = m.contact->compute(wall, pose, sphere, pair, around.dt);

@@ -175,18 +175,17 @@ void SphereWall::touch_points(const Wall& wall, double R, const contact::PairPro
   for (const contact::PointContact& p : points) {
     const double overlap = p.overlap - stretch, depth = std::max(overlap, 0.0);
     if (overlap <= 0.0 && !sticking(p.n)) continue;
-    touches_.push_back(
-        {.n = p.n,
-         .point = p.point,
-         .overlap = overlap,
-         .elastic_force = contact::hertz_force(pair, R, depth),
-         .a = contact::contact_radius(R, depth),
-         .deepest = p.overlap,  // in the field of the stretched sphere, whose differences count
-         .key = every ? candidates_.triangle[at(p.triangle)] : -1,
-         .part = every ? p.triangle : p.set,
-         .nearest = p.triangle,
-         .of_point = true,
-         .force = {}});
+    Touch& touch = touches_.emplace_back();  // in place: to copy it would take longer than to find it
+    touch.n = p.n;
+    touch.point = p.point;
+    touch.overlap = overlap;
+    touch.elastic_force = contact::hertz_force(pair, R, depth);
+    touch.a = contact::contact_radius(R, depth);
+    touch.deepest = p.overlap;  // in the field of the stretched sphere, whose differences count
+    touch.key = every ? candidates_.triangle[at(p.triangle)] : -1;
+    touch.part = every ? p.triangle : p.set;
+    touch.nearest = p.triangle;
+    touch.of_point = true;
   }
 }
 
@@ -287,9 +286,11 @@ SphereWall::Memory& SphereWall::recall(const Touch& touch, ContactRule rule) {
                                                            : -norm2(m.point - touch.point);
     if (score > best_score) best = &m, best_score = score;
   }
-  kept_.push_back(
-      {.n = touch.n, .point = touch.point, .key = touch.key, .history = {}, .of_point = touch.of_point});
-  Memory& memory = kept_.back();
+  Memory& memory = kept_.emplace_back();
+  memory.n = touch.n;
+  memory.point = touch.point;
+  memory.key = touch.key;
+  memory.of_point = touch.of_point;
   if (best != nullptr)
     best->used = true;
   else if (either)

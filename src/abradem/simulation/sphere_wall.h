@@ -345,8 +345,8 @@ class SphereWall {
   [[nodiscard]] Landing land(const Wall& wall, const Touch& touch, double R, double d_e);
   void deposit_landed(Wall& wall, const Landing& landing, double dV);
   void map_landed(const MapLayer& map, const Landing& landing, const wear::MapSample& sample) const;
-  [[nodiscard]] wear::MapSample sample_of(const Touch& touch, const SphereState& sphere,
-                                          const contact::PairProperties& pair, const Sliding& sliding) const;
+  void fill_sample(const Touch& touch, const SphereState& sphere, const contact::PairProperties& pair,
+                   const Sliding& sliding, wear::MapSample& sample) const;
   [[nodiscard]] Scratch& scratch() noexcept {
     if (scratch_ != nullptr) return *scratch_;
     if (!own_) own_ = std::make_unique<Scratch>();

@@ -115,18 +115,17 @@ double SphereWall::deposit(Wall& wall, double alpha_s, double R, const contact::
 }
 
 /// What the wall sees of a contact in this step; but for its place.
-wear::MapSample SphereWall::sample_of(const Touch& touch, const SphereState& sphere,
-                                      const contact::PairProperties& pair, const Sliding& sliding) const {
-  wear::MapSample sample;
+void SphereWall::fill_sample(const Touch& touch, const SphereState& sphere,
+                             const contact::PairProperties& pair, const Sliding& sliding,
+                             wear::MapSample& sample) const {
   sample.work = work_of(touch, sliding.of(touch), sphere.mass, pair, sliding.dt);
   sample.load = {norm(touch.force.F_t), touch.force.v_t, sliding.dt,
                  sphere.radius,         sphere.mass,     touch.weight};
-  if (touch.memory < 0) return sample;
+  if (touch.memory < 0) return;
   if (const Memory& memory = memory_[at(touch.memory)]; memory.striking) {
     sample.strikes = true;
     sample.impact = {memory.speed, memory.angle, sphere.mass, 2.0 * sphere.radius};
   }
-  return sample;
 }
 
 void SphereWall::record_wear(const Wall& wall, const SphereState& sphere, const contact::PairProperties& pair,
@@ -137,20 +136,19 @@ void SphereWall::record_wear(const Wall& wall, const SphereState& sphere, const 
     const double d_e = contact::hertz_overlap(pair, R, touch.force.F_n / touch.weight);
     const Landing landing = land(wall, touch, R, d_e);
     const bool nodal = landing.nodes != nullptr;
-    WearRecords::Record record{.contact = how.contact,
-                               .wall = how.wall,
-                               .material = how.material,
-                               .nodal = nodal,
-                               .first = nodal ? records.node.size() : records.share.size(),
-                               .end = 0,
-                               .sample = sample_of(touch, sphere, pair, how.sliding)};
+    WearRecords::Record& record = records.record.emplace_back();
+    record.contact = how.contact;
+    record.wall = how.wall;
+    record.material = how.material;
+    record.nodal = nodal;
+    record.first = nodal ? records.node.size() : records.share.size();
+    fill_sample(touch, sphere, pair, how.sliding, record.sample);
     record.sample.hertz_area = std::numbers::pi * R * d_e;
     if (nodal)
       records.node.insert(records.node.end(), landing.nodes->at_node.begin(), landing.nodes->at_node.end());
     else
       records.share.insert(records.share.end(), landing.triangles.begin(), landing.triangles.end());
     record.end = nodal ? records.node.size() : records.share.size();
-    records.record.push_back(record);
   }
 }
 
