@@ -160,14 +160,14 @@ double MeshCandidates::skin_left(const Vec3& c) const noexcept {
 }
 
 void MeshCandidates::update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
-                            const CandidateSkin& skin) {
+                            const CandidateSkin& skin, bool to_the_bit) {
   if (stale(surface, c, reach)) {
     gather(surface, c, axis, reach, skin);
   } else if (revision_ != surface.revision) {
     fetch_positions(surface.mesh);
     // Positions are always the mesh's own; areas and lengths may lag behind by half a per cent of an edge,
     // which changes a normal force by about 1e-5.
-    if (surface.odometer - odometer_at_measure_ > kShapeTolerance * shortest_) {
+    if (to_the_bit || surface.odometer - odometer_at_measure_ > kShapeTolerance * shortest_) {
       measure_triangles();
       bound_depth();
       odometer_at_measure_ = surface.odometer;

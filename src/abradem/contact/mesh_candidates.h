@@ -58,8 +58,10 @@ class MeshCandidates {
   /// vertices.
   /// @param axis unit vector from c towards the surface (the last contact's), or zero: unknown
   /// @param reach distance from c within which a triangle counts [m]
+  /// @param to_the_bit measure moved triangles however little they moved: what follows must not depend on
+  /// when this was called last
   void update(const SurfaceView& surface, const Vec3& c, const Vec3& axis, double reach,
-              const CandidateSkin& skin);
+              const CandidateSkin& skin, bool to_the_bit = false);
 
   /// Forgets everything, so that the next update gathers anew.
   void reset() noexcept { gathered_ = false; }

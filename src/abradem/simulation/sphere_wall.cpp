@@ -78,8 +78,8 @@ bool SphereWall::touch_face(const Wall& wall, const Vec3& c, double R, const con
   return true;
 }
 
-/// After a search: does its result hold for some way? Only where nobody asks for what the search leaves
-/// behind (search_all), and never on a sheet, whose faces have two sides.
+/// After a search: does its result hold for some way? Only where nobody but `land` asks for what the
+/// search leaves behind, and never on a sheet, whose faces have two sides.
 void SphereWall::note_face(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
   face_.triangle = -1;
   const ContactRule rule = wall.setup().contact;
@@ -121,7 +121,10 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
     touch_plane(wall, c, R, pair);
     return;
   }
-  candidates_.update(wall.view(), c, axis_, reach_, skin_);
+  // Where spheres sleep, a run that is resumed wakes them at other steps.
+  const ContactRule rule = wall.setup().contact;
+  candidates_.update(wall.view(), c, axis_, reach_, skin_,
+                     rule == ContactRule::resolved || rule == ContactRule::automatic);
   if (stale_) note_nodes();
   const bool patches_first = by_patches(wall);
   touches_.clear();
