@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes docs/images/bulk-cases.png from runs of the ready cases: tools/make_bulk_picture.py RUNS PICTURE
 
-RUNS/hopper, RUNS/transfer-chute, RUNS/rotating-drum and RUNS/angle-of-repose are output folders of these cases.
+RUNS/hopper, RUNS/transfer-chute, RUNS/liner-life, RUNS/rotating-drum, RUNS/angle-of-repose and RUNS/pebbles are output
+folders of these cases.
 Needs matplotlib and VTK's Python (Debian: python3-matplotlib, python3-vtk9).
 """
 import math
@@ -48,30 +49,34 @@ def draw_grains(axes, folder, title, x, z):
     plt.colorbar(grains, ax=axes, label="speed [m/s]", shrink=0.7)
 
 
-def draw_liner(axes, folder):
-    """In its own plane, 50 degrees steep."""
+def draw_liner(axes, folder, title, unit, um):
+    """In its own plane, 50 degrees steep; depths in a unit of so many micrometres."""
     data = last_frame(folder, "liner")
     p = points_mm(data)
     triangles = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
     down = p[:, 0] * math.cos(math.radians(50)) - p[:, 2] * math.sin(math.radians(50))
-    colours = axes.tripcolor(p[:, 1], -down, triangles, point_array(data, "depth_um"), cmap="inferno_r", shading="gouraud")
-    axes.set(title="transfer-chute: liner", xlabel="across [mm]", ylabel="up the slope [mm]", aspect="equal")
-    plt.colorbar(colours, ax=axes, label="depth worn [µm]", shrink=0.7)
+    depth = point_array(data, "depth_um") / um
+    colours = axes.tripcolor(p[:, 1], -down, triangles, depth, cmap="inferno_r", shading="gouraud")
+    axes.set(title=title, xlabel="across [mm]", ylabel="up the slope [mm]", aspect="equal")
+    plt.colorbar(colours, ax=axes, label=f"depth worn [{unit}]", shrink=0.7)
 
 
 def main():
     runs, picture = pathlib.Path(sys.argv[1]), sys.argv[2]
-    figure, axes = plt.subplots(1, 4, figsize=(15, 4.2))
+    figure, axes = plt.subplots(2, 3, figsize=(13, 7.6))
+    axes = axes.ravel()
     draw_grains(axes[0], runs / "hopper", "hopper", (-66, 66), (-25, 80))
     for side in (-1, 1):
         axes[0].plot([side * 62.7, side * 62.7, side * 12.5], [80, 0, 0], "k")
-    draw_liner(axes[1], runs / "transfer-chute")
-    draw_grains(axes[2], runs / "rotating-drum", "rotating-drum", (-105, 105), (-105, 105))
+    draw_liner(axes[1], runs / "transfer-chute", "transfer-chute: liner after 0.8 s", "µm", 1.0)
+    draw_liner(axes[2], runs / "liner-life", "liner-life: after 500 hours", "mm", 1000.0)
+    draw_grains(axes[3], runs / "rotating-drum", "rotating-drum", (-105, 105), (-105, 105))
     drum = points_mm(last_frame(runs / "rotating-drum", "drum"))
     front = drum[drum[:, 1] < -19.9]  # half a turn later it lies upside down
-    axes[2].plot(-front[:, 0], -front[:, 2], "k.", markersize=1.5)
-    draw_grains(axes[3], runs / "angle-of-repose", "angle-of-repose", (-40, 40), (-8, 30))
-    axes[3].plot([-32, 32], [0, 0], "k")
+    axes[3].plot(-front[:, 0], -front[:, 2], "k.", markersize=1.5)
+    for place, case in ((4, "angle-of-repose"), (5, "pebbles")):
+        draw_grains(axes[place], runs / case, case, (-40, 40), (-8, 30))
+        axes[place].plot([-32, 32], [0, 0], "k")
     figure.tight_layout()
     figure.savefig(picture, dpi=90)
 

@@ -178,5 +178,33 @@ TEST(MeshCandidates, SayWhetherTheSurfaceIsNearlyFlat) {
   EXPECT_FALSE(steep.candidates_at({0, 0, R - 10e-6}, R).nearly_flat());
 }
 
+/// What is measured to the bit does not depend on which of the moves before were looked at.
+TEST(MeshCandidates, ToTheBitForgetWhenTheyWereUpdated) {
+  for (const bool to_the_bit : {true, false}) {
+    test::Scene scene(test::jittered_plate(8e-3, 8e-3, 2e-3, 0.2));
+    MeshCandidates often, seldom;
+    const Vec3 c{0.1e-3, 0.2e-3, 3e-3};
+    const CandidateSkin skin{1e-3, 1e-3};
+    double odometer = 0.0;
+    const auto update = [&](MeshCandidates& m, std::uint64_t revision) {
+      m.update({scene.mesh, scene.grid, revision, odometer, odometer}, c, {}, 3.1e-3, skin, to_the_bit);
+    };
+    update(often, 1);
+    update(seldom, 1);
+    for (std::uint64_t revision = 2; revision <= 4; ++revision) {  // each 0.2 % of an edge
+      for (std::size_t v = 0; v < scene.mesh.vertices.size(); v += 2) scene.mesh.vertices[v].z -= 4e-6;
+      odometer += 4e-6;
+      update(often, revision);
+      if (revision == 4) update(seldom, revision);
+    }
+    ASSERT_EQ(often.gatherings(), 1U);
+    ASSERT_GT(often.triangle_count(), 4U);
+    bool same = true;
+    for (std::size_t t = 0; t < often.triangle_count(); ++t)
+      same = same && often.area[t] == seldom.area[t] && often.ax[t] == seldom.ax[t];
+    EXPECT_EQ(same, to_the_bit);
+  }
+}
+
 }  // namespace
 }  // namespace abradem::contact
