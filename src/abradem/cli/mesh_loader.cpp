@@ -18,7 +18,7 @@ MeshLoader::MeshLoader(const simulation::Setup& setup) {
   for (const simulation::ParticleSetup& p : setup.particles)
     largest_radius_ = std::max(largest_radius_.value_or(0.0), p.radius);
   for (const simulation::InsertionSetup& i : setup.insertions)
-    largest_radius_ = std::max(largest_radius_.value_or(0.0), simulation::largest_radius(i.size));
+    largest_radius_ = std::max(largest_radius_.value_or(0.0), simulation::largest_radius(i));
 }
 
 geometry::TriangleMesh MeshLoader::operator()(const simulation::MeshSetup& mesh, std::uint64_t seed) const {

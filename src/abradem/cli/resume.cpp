@@ -86,6 +86,10 @@ Resumed put_back(const io::Checkpoint& checkpoint, const fs::path& folder,
   archive.require(inputs.insertions.size() == setup.insertions.size(), "comes after other insertions");
   for (std::size_t i = 0; i < setup.insertions.size(); ++i) {
     setup.insertions[i].placed = inputs.insertions[i].placed;
+    setup.insertions[i].turns = inputs.insertions[i].turns;
+    archive.require(setup.insertions[i].turns.empty() ||
+                        setup.insertions[i].turns.size() == setup.insertions[i].placed.size(),
+                    "comes after turns of other particles");
     setup.insertions[i].size.radii = inputs.insertions[i].radii;
     setup.insertions[i].size.shares = inputs.insertions[i].shares;
   }

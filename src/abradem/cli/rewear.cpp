@@ -101,8 +101,9 @@ Setup changed(const Setup& before, const RewearArguments& a, const fs::path& fil
               "Fn * slip' and its constants",
               pair_of(w)));
       }
-  Setup after =
-      io::parse_case(io::resolved_case(setup), file.string(), file.parent_path(), a.overrides).setup;
+  Setup after = io::parse_case(io::resolved_case(setup), file.string(), file.parent_path(), a.overrides,
+                               io::NamedFiles::kept)
+                    .setup;
   for (const WearSetup& w : after.wear) check_coefficients(w);
   Setup same = after;
   same.wear = before.wear;
@@ -146,7 +147,7 @@ double only_radius(const Setup& setup, const std::string& material) {
   for (const simulation::InsertionSetup& i : setup.insertions) {
     if (i.material != material) continue;
     const bool single = i.size.kind == simulation::SizeKind::single && i.shape.empty() &&
-                        i.volume.shape != simulation::VolumeShape::file;
+                        !simulation::gives_places(i.volume.shape);
     radii.push_back(single ? i.size.radius : 0.0);
   }
   return !radii.empty() && std::ranges::all_of(radii, [&](double r) { return r == radii[0]; }) ? radii[0]
@@ -238,7 +239,7 @@ int rewear_command(const RewearArguments& arguments) {
   const fs::path folder = arguments.folder, tables = folder / "tables", file = folder / "case.resolved.toml";
   if (std::error_code code; !fs::is_directory(folder, code))
     throw IoError(fmt::format("{}: no such folder; expected the output folder of a run", folder.string()));
-  const Setup before = io::parse_case(read_text(file), file.string(), folder).setup;
+  const Setup before = io::parse_case(read_text(file), file.string(), folder, {}, io::NamedFiles::kept).setup;
   const Setup after = changed(before, arguments, file);
   const analysis::Recorded recorded = io::read_recorded_wear(tables);
 

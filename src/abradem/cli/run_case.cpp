@@ -327,7 +327,7 @@ int run_case(const RunOptions& options) {
                .json = options.json};
   how.record.inputs_hash = io::inputs_hash(options.setup);
   simulation::Setup given = options.setup;
-  io::read_insertion_files(given);
+  const std::vector<std::string> notes = io::read_insertion_files(given);
   io::read_motion_files(given);
   simulation::Setup setup = given;
   const bool choose = study::wants_acceleration(setup);
@@ -343,6 +343,7 @@ int run_case(const RunOptions& options) {
   RunLog log(options.output / "run.log", options.quiet);
   const PathLock lock(options.output / "run.log", PathLock::Kind::exclusive);
   log.line(fmt::format("{} -> {}", options.case_path.string(), options.output.string()));
+  for (const std::string& note : notes) log.line(note);
   if (choose) {
     how.record.acceleration = choose_acceleration(given, log);
     setup = study::accelerated(setup, how.record.acceleration->factor);

@@ -48,6 +48,7 @@ class Checker {
   void check_insertions();
   void check_face(const simulation::InsertionSetup& i, const std::string& path);
   void check_drawn(const simulation::InsertionSetup& i, const std::string& path);
+  void check_left(const simulation::InsertionSetup& i, const std::string& path);
 
   // wear
   void check_wear_pairs();

@@ -7,6 +7,7 @@
 
 #include "abradem/core/suggest.h"
 #include "abradem/io/case_checker.h"
+#include "abradem/io/run_particles.h"
 #include "abradem/simulation/insertion.h"
 
 namespace abradem::io {
@@ -59,7 +60,8 @@ void Checker::check_insertions() {
   for (const InsertionSetup& i : setup_.insertions) {
     check_insertion_pairs(i);
     const std::string path = path_of("insertion", i.name);
-    if (i.volume.shape != VolumeShape::file) check_drawn(i, path);
+    if (!gives_places(i.volume.shape)) check_drawn(i, path);
+    if (i.volume.shape == VolumeShape::run) check_left(i, path);
   }
   if (setup_.domain && good("domain")) {
     const Vec3 e = setup_.domain->high - setup_.domain->low;
@@ -69,6 +71,23 @@ void Checker::check_insertions() {
   if (!setup_.insertions.empty() && setup_.run.method == Method::quasi_static && good("run.method"))
     error("run.method",
           "method = \"quasi_static\" balances guided particles; with an [insertion] use \"dynamic\"");
+}
+
+/// An insertion of what another run left.
+void Checker::check_left(const InsertionSetup& i, const std::string& path) {
+  const auto refuse = [&](const char* key, bool given) {
+    if (given)
+      error(fmt::format("{}.{}", path, key),
+            fmt::format("'{}' does not count here: what a run left comes in as it was there", key));
+  };
+  refuse("number", i.number > 0);
+  refuse("mass", i.mass.has_value());
+  refuse("mass_rate", i.mass_rate.has_value());
+  refuse("velocity", i.velocity != Vec3{});
+  refuse("spin", i.spin != Vec3{});
+  refuse("size", places_.given(path + ".size"));
+  if (i.volume.run.empty() || places_.files_kept() || !good(path + ".volume.run")) return;
+  if (const std::string why = why_no_run(i.volume.run); !why.empty()) error(path + ".volume.run", why);
 }
 
 /// An insertion whose spheres are drawn at random.

@@ -292,6 +292,7 @@ simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems&
   for (simulation::InsertionSetup& insertion : setup.insertions) {
     made_absolute(insertion.size.file);
     made_absolute(insertion.volume.file);
+    made_absolute(insertion.volume.run);
   }
   for (simulation::ShapeSetup& shape : setup.shapes)
     if (shape.fit) made_absolute(shape.fit->file);

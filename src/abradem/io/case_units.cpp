@@ -147,8 +147,7 @@ class Units {
     if (!places_.good(path)) return;
     if (const double v = norm(i.velocity); v > kFastest)
       ask(path + ".velocity", "particles of '{}' start at {:.4g} m/s: is their velocity in mm/s?", i.name, v);
-    if (!i.placed.empty() || i.volume.shape == VolumeShape::file)
-      return;  // sizes and places of a file have units
+    if (!i.placed.empty() || gives_places(i.volume.shape)) return;  // sizes and places of a file have units
     const double R = largest_radius(i.size);
     if (!(R > 0.0)) return;
     if (const double v = norm(i.spin) * R; v > kFastest)

@@ -18,6 +18,7 @@ std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr double kSkin = 0.2;     // of the mean radius
 constexpr double kFastest = 0.1;  // of the radius in one step: a faster one may pass through a wall
+constexpr double kDeepestInWall = 0.5 * contact::kDeepest;  // of the radius
 
 /// Lengths after which space repeats itself; 0 along open axes.
 Vec3 period_of(const std::optional<DomainSetup>& d) noexcept {
@@ -111,6 +112,7 @@ void Bulk::take_in(double time, std::span<const Wall> walls) {
   };
   for (Inserter& inserter : inserters_) {
     if (!inserter.wants(time)) continue;
+    const std::size_t first = spheres_.size();
     if (const ClumpShape* shape = inserter.shape()) {
       const auto number =
           std::ranges::find(clumps_.shapes(), shape->name, &ClumpShape::name) - clumps_.shapes().begin();
@@ -119,15 +121,42 @@ void Bulk::take_in(double time, std::span<const Wall> walls) {
         clumps_.add(birth, spheres_, next_id_);
         worn_out_ = true;
       }
-      continue;
+    } else {
+      for (const contact::SphereRow& s : inserter.insert(time, spheres_, period_, clear)) {
+        spheres_.row.push_back(s);
+        spheres_.id.push_back(next_id_++);
+        worn_out_ = true;
+      }
     }
-    for (const contact::SphereRow& s : inserter.insert(time, spheres_, period_, clear)) {
-      spheres_.row.push_back(s);
-      spheres_.id.push_back(next_id_++);
-      worn_out_ = true;
-    }
+    if (inserter.setup().volume.shape == VolumeShape::run) refuse_buried(inserter, first, time, walls);
   }
   if (!clumps_.empty()) spheres_.clump.resize(spheres_.size(), -1);
+}
+
+/// What another run left touches its walls, and may do so here; but where this case has its walls elsewhere,
+/// it may lie in them.
+void Bulk::refuse_buried(const Inserter& inserter, std::size_t first, double time,
+                         std::span<const Wall> walls) {
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    if (!walls[w].present(time)) continue;
+    const geometry::Pose pose = walls[w].pose_at(time);
+    std::size_t count = 0, example = 0;
+    for (std::size_t i = first; i < spheres_.size(); ++i) {
+      const contact::SphereRow& s = spheres_.row[i];
+      const Vec3 c = pose.to_body(s.position());
+      if (is_clear_of(walls[w], c, (1.0 - kDeepestInWall) * s.radius) && !is_inside(w, walls[w], c)) continue;
+      if (count++ == 0) example = i;
+    }
+    if (count == 0) continue;
+    const InsertionSetup& setup = inserter.setup();
+    const Vec3 p = spheres_.row[example].position();
+    throw InputError(fmt::format(
+        "insertion '{}': {} of the {} spheres that '{}' left lie inside wall '{}' or deeper in it than a "
+        "tenth of their radius, the first at ({:.4g}, {:.4g}, {:.4g}) mm. Does the wall stand where it stood "
+        "in that run? One that moved there begins here as its mesh and motion say",
+        setup.name, count, spheres_.size() - first, setup.volume.run, walls[w].setup().name, 1e3 * p.x,
+        1e3 * p.y, 1e3 * p.z));
+  }
 }
 
 /// Is c, in its frame, inside the solid that the wall's mesh bounds?
@@ -336,7 +365,6 @@ void Bulk::check_overlaps(const Surroundings& around, std::uint64_t step) const 
                        title(at(block.j[k])), 1e3 * overlap),
            around, step);
   });
-  constexpr double kDeepestInWall = 0.5 * contact::kDeepest;
   const auto check_wall = [&](std::int32_t sphere, std::size_t w, double overlap, double most) {
     const double R = spheres_.row[at(sphere)].radius;
     if (overlap <= most * R) return;
