@@ -136,8 +136,8 @@ static_friction = 0.5
   const Outcome buried =
       run_program("run shake.toml -o refused --set wall.plate.mesh.position='[0, 0, \"0.5 mm\"]'", folder());
   EXPECT_EQ(buried.exit_code, 2);
-  EXPECT_TRUE(
-      says(buried.err, {"left lie inside wall 'plate' or deeper in it than a tenth", "stood in that run"}));
+  EXPECT_TRUE(says(buried.err, {"spheres lie inside wall 'plate' or deeper in it than a tenth",
+                                "does the wall stand where it stood there?"}));
   EXPECT_FALSE(fs::exists(folder() / "refused"));
   // Older frames, and damaged ones.
   fs::path last;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -93,12 +94,15 @@ material = "ore"
 volume = { run = "settled" }
 )";
 
-/// By number; sizes and materials tell them apart.
+/// By place.
 std::vector<contact::SphereRow> sorted(const Simulation& run) {
-  std::vector<contact::SphereRow> rows(run.bulk()->spheres().row.begin(), run.bulk()->spheres().row.end());
-  std::ranges::sort(
-      rows, [](const auto& a, const auto& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
-  return rows;
+  const contact::SphereRows& rows = run.bulk()->spheres().row;
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return std::tuple(rows[i].x, rows[i].y, rows[i].z); });
+  std::vector<contact::SphereRow> sorted;
+  for (const std::size_t i : order) sorted.push_back(rows[i]);
+  return sorted;
 }
 
 /// Largest overlap of two spheres over their effective radius.

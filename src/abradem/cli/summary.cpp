@@ -63,9 +63,12 @@ std::string summarize(const Setup& setup) {
   for (const WallSetup& w : setup.walls)
     out += fmt::format("  wall '{}' of {}: {}, {}\n", w.name, w.material, shape_of(w.mesh), motions_of(w));
   for (const ParticleSetup& p : setup.particles)
-    out += fmt::format("  particle '{}' of {}: radius {}, load {:.4g} N{}\n", p.name, p.material,
-                       core::format_quantity(p.radius, "mm"), norm(p.load),
-                       p.guide == Guide::vertical ? ", guided" : "");
+    if (!p.shape.empty())
+      out += fmt::format("  particle '{}' of {}: shape '{}'\n", p.name, p.material, p.shape);
+    else
+      out += fmt::format("  particle '{}' of {}: radius {}, load {:.4g} N{}\n", p.name, p.material,
+                         core::format_quantity(p.radius, "mm"), norm(p.load),
+                         p.guide == Guide::vertical ? ", guided" : "");
   for (const InsertionSetup& i : setup.insertions)
     out +=
         fmt::format("  insertion '{}' of {}: {}{}\n", i.name, i.material,

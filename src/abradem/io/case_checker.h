@@ -66,6 +66,7 @@ class Checker {
 
   // named particles
   void check_particle(const simulation::ParticleSetup& p);
+  void check_named_clump(const simulation::ParticleSetup& p, const std::string& path);
   void check_load(const simulation::ParticleSetup& p, const std::string& path);
   void check_placement(const simulation::ParticleSetup& p, const std::string& path);
 

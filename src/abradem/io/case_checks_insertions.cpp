@@ -37,21 +37,23 @@ void Checker::check_shapes() {
     if (shape.spheres.empty() == !shape.fit)
       error(path, shape.fit ? "has both spheres and a fit; give one of them"
                             : "needs spheres = [{ position = …, radius = … }, …], or a fit to a mesh file");
-    if (std::ranges::none_of(setup_.insertions,
-                             [&](const InsertionSetup& i) { return i.shape == shape.name; }) &&
-        good("insertion"))
-      note(path, "no insertion uses this shape");
+    const auto has_it = [&](const auto& user) { return user.shape == shape.name; };
+    if (std::ranges::none_of(setup_.insertions, has_it) && std::ranges::none_of(setup_.particles, has_it) &&
+        good("insertion") && good("particle"))
+      note(path, "no insertion and no particle uses this shape");
   }
   std::vector<std::string_view> known;
   for (const ShapeSetup& shape : setup_.shapes) known.emplace_back(shape.name);
-  for (const InsertionSetup& i : setup_.insertions) {
-    const std::string path = path_of("insertion", i.name) + ".shape";
-    if (i.shape.empty() || !good(path) || !good("shape") || std::ranges::find(known, i.shape) != known.end())
-      continue;
-    const std::string nearest = core::nearest_spelling(i.shape, known);
-    error(path, nearest.empty() ? fmt::format("no shape '{}'; add [{}]", i.shape, path_of("shape", i.shape))
-                                : fmt::format("no shape '{}'; did you mean '{}'?", i.shape, nearest));
-  }
+  const auto check_user = [&](const std::string& path, const std::string& shape) {
+    if (shape.empty() || !good(path) || !good("shape") || std::ranges::find(known, shape) != known.end())
+      return;
+    const std::string nearest = core::nearest_spelling(shape, known);
+    error(path, nearest.empty() ? fmt::format("no shape '{}'; add [{}]", shape, path_of("shape", shape))
+                                : fmt::format("no shape '{}'; did you mean '{}'?", shape, nearest));
+  };
+  for (const InsertionSetup& i : setup_.insertions)
+    check_user(path_of("insertion", i.name) + ".shape", i.shape);
+  for (const ParticleSetup& p : setup_.particles) check_user(path_of("particle", p.name) + ".shape", p.shape);
 }
 
 void Checker::check_insertions() {

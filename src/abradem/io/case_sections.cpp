@@ -100,7 +100,7 @@ const std::array kSections{
             .name = [](const Target& t) { return t.region->name; },
             .rename = [](const Target& t, const std::string& name) { t.region->name = name; }},
     Section{.path = "particle.*",
-            .doc = "A sphere with a name of its own: a pin, an impactor.",
+            .doc = "A sphere or a clump with a name of its own: a pin, an impactor.",
             .naming = Naming::name,
             .count = [](const Target& t) { return t.setup->particles.size(); },
             .add = [](const Target& t) { t.setup->particles.emplace_back(); },
@@ -108,7 +108,7 @@ const std::array kSections{
             .name = [](const Target& t) { return t.particle->name; },
             .rename = [](const Target& t, const std::string& name) { t.particle->name = name; }},
     Section{.path = "shape.*",
-            .doc = "What particles in numbers look like that are no spheres: spheres that keep together (a "
+            .doc = "What particles look like that are no spheres: spheres that keep together (a "
                    "clump), either given or fitted to a closed mesh. Overlaps count once. "
                    "[More](../theory/clumps.md).",
             .naming = Naming::name,

@@ -143,12 +143,14 @@ class RunParticles {
   /// Those that are no clump's; named particles have the first ids.
   void read_spheres(const Arrays& frame) {
     const std::vector<double>& id = frame.of("id", 1);
+    const auto named = static_cast<double>(
+        std::ranges::count_if(setup_.particles, [](const ParticleSetup& p) { return p.shape.empty(); }));
     const auto material = frame.numbers("material", setup_.materials.size());
     const std::vector<double> clump =
         setup_.shapes.empty() ? std::vector<double>(frame.size(), -1.0) : frame.of("clump", 1);
     const std::vector<PlacedSphere> placed = frame.placed();
     for (std::size_t i = 0; i < placed.size(); ++i)
-      if (id[i] >= static_cast<double>(setup_.particles.size()) && clump[i] < 0.0)
+      if (id[i] >= named && clump[i] < 0.0)
         kinds_[{setup_.materials[material[i]].name, ""}].placed.push_back(placed[i]);
   }
 

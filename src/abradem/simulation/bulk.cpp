@@ -128,13 +128,13 @@ void Bulk::take_in(double time, std::span<const Wall> walls) {
         worn_out_ = true;
       }
     }
-    if (inserter.setup().volume.shape == VolumeShape::run) refuse_buried(inserter, first, time, walls);
+    if (gives_places(inserter.setup().volume.shape)) refuse_buried(inserter, first, time, walls);
   }
   if (!clumps_.empty()) spheres_.clump.resize(spheres_.size(), -1);
 }
 
-/// What another run left touches its walls, and may do so here; but where this case has its walls elsewhere,
-/// it may lie in them.
+/// What a file or another run says may touch walls; but where this case has its walls elsewhere, it may lie
+/// in them.
 void Bulk::refuse_buried(const Inserter& inserter, std::size_t first, double time,
                          std::span<const Wall> walls) {
   for (std::size_t w = 0; w < walls.size(); ++w) {
@@ -148,14 +148,17 @@ void Bulk::refuse_buried(const Inserter& inserter, std::size_t first, double tim
       if (count++ == 0) example = i;
     }
     if (count == 0) continue;
-    const InsertionSetup& setup = inserter.setup();
+    const std::string& run = inserter.setup().volume.run;
     const Vec3 p = spheres_.row[example].position();
     throw InputError(fmt::format(
-        "insertion '{}': {} of the {} spheres that '{}' left lie inside wall '{}' or deeper in it than a "
-        "tenth of their radius, the first at ({:.4g}, {:.4g}, {:.4g}) mm. Does the wall stand where it stood "
-        "in that run? One that moved there begins here as its mesh and motion say",
-        setup.name, count, spheres_.size() - first, setup.volume.run, walls[w].setup().name, 1e3 * p.x,
-        1e3 * p.y, 1e3 * p.z));
+        "'{}': {} of its {} spheres lie inside wall '{}' or deeper in it than a tenth of their radius, the "
+        "first at ({:.4g}, {:.4g}, {:.4g}) mm{}",
+        inserter.setup().name, count, spheres_.size() - first, walls[w].setup().name, 1e3 * p.x, 1e3 * p.y,
+        1e3 * p.z,
+        run.empty() ? std::string{}
+                    : fmt::format(". So '{}' left them: does the wall stand where it stood there? One that "
+                                  "moved there begins here as its mesh and motion say",
+                                  run)));
   }
 }
 

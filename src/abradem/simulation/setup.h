@@ -188,6 +188,9 @@ struct ParticleSetup {
   Vec3 spin;                  ///< [rad/s]
   Guide guide = Guide::none;  ///< vertical: a holder leaves only the motion along the load free, no spin
   Vec3 load;                  ///< constant force [N], besides gravity
+  /// Name of a shape; empty: a sphere. The radius is then that of a sphere of equal volume, 0: as given.
+  std::string shape = {};
+  Vec3 rotation = {};  ///< of a shape as it was given: about the fixed axes x, y and z, in this order [rad]
   bool operator==(const ParticleSetup&) const = default;
 };
 
