@@ -143,7 +143,7 @@ std::string chosen_name(const fs::path& folder, const std::string& asked) {
 double only_radius(const Setup& setup, const std::string& material) {
   std::vector<double> radii;
   for (const simulation::ParticleSetup& p : setup.particles)
-    if (p.material == material) radii.push_back(p.radius);
+    if (p.material == material) radii.push_back(p.shape.empty() ? p.radius : 0.0);
   for (const simulation::InsertionSetup& i : setup.insertions) {
     if (i.material != material) continue;
     const bool single = i.size.kind == simulation::SizeKind::single && i.shape.empty() &&
@@ -158,7 +158,7 @@ double only_radius(const Setup& setup, const std::string& material) {
 void check_expression(const Setup& setup, const WearSetup& w, analysis::LawChange& change) {
   using wear::Symbol;
   const auto &was = change.before.expression, &is = change.after.expression;
-  if (!is || is->by_impact() || (was && is->same_as(*was))) return;
+  if (!is || is->by_impact() || (was && is->same_as(*was)) || analysis::linear_expression(*is)) return;
   const auto refuse = [&](const char* why) {
     throw InputError(
         fmt::format("wear \"{}\": the record of the run cannot tell what this expression wears: {}. Run "
@@ -166,13 +166,13 @@ void check_expression(const Setup& setup, const WearSetup& w, analysis::LawChang
                     pair_of(w), why));
   };
   if (!is->proportional_to_step()) refuse("its volume depends on the time step");
-  if (is->names(Symbol::dt))
+  if (is->names(Symbol::dt) && !analysis::wears_by_sliding_alone(*is))
     refuse("contacts that do not slide are in no class, and dt counts there too; the way slid is slip");
   if (is->names(Symbol::normal_work))
     refuse(
-        "classes of contacts have no normal_work; law impact_energy with normal_energy_coefficient wears by "
-        "it, "
-        "exactly");
+        "classes of contacts have no normal_work; times a constant, and added to Fn * slip and shear_work "
+        "times "
+        "others, it would be found exactly");
   const bool sized =
       std::ranges::any_of(std::array{Symbol::a, Symbol::p_mean, Symbol::p_max, Symbol::m, Symbol::R},
                           [&](Symbol s) { return is->names(s); });
