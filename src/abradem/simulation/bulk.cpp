@@ -150,7 +150,7 @@ void Bulk::refuse_buried(const Inserter& inserter, std::size_t first, double tim
     if (count == 0) continue;
     const std::string& run = inserter.setup().volume.run;
     const Vec3 p = spheres_.row[example].position();
-    throw InputError(fmt::format(
+    const std::string what = fmt::format(
         "'{}': {} of its {} spheres lie inside wall '{}' or deeper in it than a tenth of their radius, the "
         "first at ({:.4g}, {:.4g}, {:.4g}) mm{}",
         inserter.setup().name, count, spheres_.size() - first, walls[w].setup().name, 1e3 * p.x, 1e3 * p.y,
@@ -158,7 +158,9 @@ void Bulk::refuse_buried(const Inserter& inserter, std::size_t first, double tim
         run.empty() ? std::string{}
                     : fmt::format(". So '{}' left them: does the wall stand where it stood there? One that "
                                   "moved there begins here as its mesh and motion say",
-                                  run)));
+                                  run));
+    if (time > 0.0) throw SimulationError(what);
+    throw InputError(what);
   }
 }
 
