@@ -83,6 +83,8 @@ TEST_F(FromRun, TakesUpWhatItLeftAndIsResumedWithoutIt) {
   EXPECT_TRUE(says(checked.err, {"60 particles, as left by", "10 particles, as left by"}));
   const std::string run = "run shake.toml --quiet --no-report --threads 1";
   ASSERT_EQ(run_program(run + " -o whole", folder()).exit_code, 0);
+  EXPECT_TRUE(
+      contains(read_file(folder() / "whole" / "run.log"), "insertion 'grains': 60 particles as left by "));
   const io::CsvTable left = io::read_csv(folder() / "settled" / "tables" / "particles.csv"),
                      taken = io::read_csv(folder() / "whole" / "tables" / "particles.csv");
   EXPECT_EQ(taken.column("particles").front(), left.column("particles").back());

@@ -50,6 +50,10 @@ void announce(const Simulation& run, RunLog& log) {
                            1e3 * geometry::mean_edge_length(wall.surface().mesh())));
   for (const simulation::ShapeSetup& shape : run.setup().shapes)
     log.line(fmt::format("shape '{}': {}", shape.name, io::shape_text(shape)));
+  for (const simulation::InsertionSetup& i : run.setup().insertions)
+    if (!i.volume.run.empty())
+      log.line(
+          fmt::format("insertion '{}': {} particles as left by '{}'", i.name, i.placed.size(), i.volume.run));
   if (!run.setup().insertions.empty())
     log.line(fmt::format("{} particles in numbers at the start", run.bulk_state().present));
   log.line(fmt::format("{} steps of {:.4g} s, {} per output", run.total_steps(), run.time_step(),

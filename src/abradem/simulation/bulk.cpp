@@ -416,7 +416,13 @@ std::string Bulk::title(std::size_t i) const {
   const std::int32_t id = spheres_.id[i];
   if (in_clump(i)) {
     const Clump& c = clumps_.clumps()[at(spheres_.clump[i])];
-    return fmt::format("sphere {} of clump {}", id - c.first_sphere, c.id);
+    // Named ones come in first, each by an insertion of its own (clumps_in_numbers).
+    const auto n = at(c.id);
+    const bool named = n < inserters_.size() && inserters_[n].setup().turns.size() == 1 &&
+                       inserters_[n].setup().volume.file.empty() && inserters_[n].setup().volume.run.empty();
+    return fmt::format(
+        "sphere {} of {}", id - c.first_sphere,
+        named ? fmt::format("particle '{}'", inserters_[n].setup().name) : fmt::format("clump {}", c.id));
   }
   return id < named_ ? fmt::format("particle '{}'", names_[at(id)]) : fmt::format("particle {}", id);
 }
