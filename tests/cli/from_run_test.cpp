@@ -110,6 +110,27 @@ TEST_F(FromRun, TakesAnEarlierMoment) {
   EXPECT_NE(manifest(folder() / "early")["inputs_hash"], nullptr);
 }
 
+/// The only clump lies across the border of the period: half of its spheres are a period away from it.
+TEST_F(FromRun, TakesAClumpAcrossTheBorder) {
+  const std::string fall = read_file(folder() / "fall.toml");
+  write_file(folder() / "one.toml", fall.substr(0, fall.find("[insertion.grains]")) + R"([particle.pebble]
+material = "glass"
+shape = "pebble"
+position = ["7.9 mm", 0, "1.05 mm"]
+rotation = [0, 0, "10 deg"]
+)");
+  const Outcome one =
+      run_program("run one.toml -o settled --force --quiet --no-report --threads 1", folder());
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  std::string shake = read_file(folder() / "shake.toml");
+  shake.erase(shake.find("[insertion.grains]"),
+              shake.find("[insertion.pebbles]") - shake.find("[insertion.grains]"));
+  write_file(folder() / "shake.toml", shake);
+  const Outcome checked = run_program("check shake.toml", folder());
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_TRUE(contains(checked.err, "1 particles, as left by"));
+}
+
 TEST_F(FromRun, RefusesBeforeTheRun) {
   refuse("--set insertion.grains.volume.at='7 ms'", {"has no frame at 0.007 s", "the last at 0.02 s"});
   refuse("--set insertion.grains.volume.run=nowhere",

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -12,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "abradem/core/error.h"
@@ -127,6 +129,23 @@ class Arrays {
   VtpSurface frame_;
 };
 
+/// Lengths after which space repeats itself; 0 along open axes.
+Vec3 period_of(const std::optional<DomainSetup>& domain) {
+  if (!domain) return {};
+  const std::string_view axes =
+      std::array{"", "x", "y", "z", "xy", "xz", "yz", "xyz"}[static_cast<std::size_t>(domain->periodic)];
+  const Vec3 e = domain->high - domain->low;
+  return {axes.find('x') != axes.npos ? e.x : 0.0, axes.find('y') != axes.npos ? e.y : 0.0,
+          axes.find('z') != axes.npos ? e.z : 0.0};
+}
+/// The shortest of a vector's images.
+Vec3 nearest(const Vec3& d, const Vec3& period) {
+  const auto along = [](double x, double length) {
+    return length > 0.0 ? x - length * std::round(x / length) : x;
+  };
+  return {along(d.x, period.x), along(d.y, period.y), along(d.z, period.z)};
+}
+
 /// What a run left, by kind.
 class RunParticles {
  public:
@@ -162,7 +181,8 @@ class RunParticles {
     std::map<double, std::vector<std::size_t>> members;
     const std::vector<double>& clump = spheres.of("clump", 1);
     for (std::size_t i = 0; i < clump.size(); ++i) members[clump[i]].push_back(i);
-    std::map<std::size_t, std::pair<double, std::vector<geometry::Ball>>> example;  // by shape
+    const std::vector<double>& radius = spheres.of("radius", 1);
+    const Vec3 period = period_of(setup_.domain);
     for (std::size_t k = 0; k < placed.size(); ++k) {
       Left& left = kinds_[{setup_.materials[material[k]].name, setup_.shapes[shape[k]].name}];
       const geometry::Quaternion q{turn[4 * k], turn[4 * k + 1], turn[4 * k + 2], turn[4 * k + 3]};
@@ -170,21 +190,12 @@ class RunParticles {
         frame.fail(fmt::format("clump {} is not turned by a rotation", k));
       left.placed.push_back(placed[k]);
       left.turns.push_back(q);
-      // Of several the one that is most together: across a periodic border some are a period away.
-      std::vector<geometry::Ball> own;
-      double furthest = 0.0;
-      const std::vector<double>& radius = spheres.of("radius", 1);
-      for (const std::size_t i : members[id[k]]) {
-        own.push_back({q.turn_back(spheres.position(i) - placed[k].position) / placed[k].radius,
-                       radius[i] / placed[k].radius});
-        furthest = std::max(furthest, norm(own.back().centre));
-      }
-      auto& [best, balls] = example[shape[k]];
-      if (balls.empty() || furthest < best) best = furthest, balls = std::move(own);
+      if (!left.spheres.empty()) continue;
+      for (const std::size_t m : members[id[k]])
+        left.spheres.push_back(
+            {q.turn_back(nearest(spheres.position(m) - placed[k].position, period)) / placed[k].radius,
+             radius[m] / placed[k].radius});
     }
-    for (auto& [kind, left] : kinds_)
-      for (std::size_t s = 0; s < setup_.shapes.size(); ++s)
-        if (setup_.shapes[s].name == kind.second) left.spheres = example[s].second;
   }
 
   Setup setup_;
