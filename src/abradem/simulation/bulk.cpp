@@ -97,13 +97,15 @@ Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
     inserters_.emplace_back(insertion, static_cast<int>(m), materials[m].density, setup.run.seed, kStream + k,
                             shape != shapes.end() ? &*shape : nullptr);
   }
-  take_in(0.0, walls);
+  std::vector<geometry::Pose> poses;
+  for (const Wall& wall : walls) poses.push_back(wall.pose_at(0.0));
+  take_in(0.0, walls, poses);
 }
 
-void Bulk::take_in(double time, std::span<const Wall> walls) {
+void Bulk::take_in(double time, std::span<const Wall> walls, std::span<const geometry::Pose> poses) {
   const auto clear = [&](const Vec3& centre, double radius) {
     for (std::size_t w = 0; w < walls.size(); ++w) {
-      const Vec3 c = walls[w].pose_at(time).to_body(centre);
+      const Vec3 c = poses[w].to_body(centre);
       if (walls[w].present(time) && (!is_clear_of(walls[w], c, radius) || is_inside(w, walls[w], c)))
         return false;
     }
@@ -195,7 +197,7 @@ void Bulk::fetch_named(const Particles& named) {
 }
 
 void Bulk::find_contacts(const Surroundings& around, const Particles& named, std::vector<double>& paper) {
-  take_in(around.time, around.walls);
+  take_in(around.time, around.walls, around.poses);
   fetch_named(named);
   const double by_walls = walls_.fastest_wall() * wall_time_;
   worn_out_ = worn_out_ || around.time >= walls_.next_removal();
