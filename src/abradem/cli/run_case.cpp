@@ -325,7 +325,6 @@ int run_case(const RunOptions& options) {
                .record = {},
                .report = options.report,
                .json = options.json};
-  how.record.inputs_hash = io::inputs_hash(options.setup);
   simulation::Setup given = options.setup;
   io::read_insertion_files(given);
   io::read_motion_files(given);
@@ -334,6 +333,7 @@ int run_case(const RunOptions& options) {
   if (choose) setup = study::accelerated(setup, 1.0);
   Simulation run(setup, MeshLoader(setup));
   io::refuse_misplaced_particles(run);
+  how.record.inputs_hash = io::inputs_hash(options.setup);  // reads the meshes, which may be refused for their size
 
   const StopSignals signals;
   OutputFolder folder(options.output, options.force);
