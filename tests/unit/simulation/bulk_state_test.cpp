@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "abradem/core/error.h"
+#include "support/grains.h"
 #include "support/state.h"
 
 namespace abradem::simulation {
@@ -21,24 +22,11 @@ simulation::Setup feed_on_a_shaking_plate(ContactRule contact) {
   setup.materials = {{"grain", 2500.0, 1e7, 0.25, {}}, {"steel", 7900.0, 1e9, 0.3, {}}};
   setup.contacts = {{"grain", "grain", 0.5, 0.5, 0.02}, {"grain", "steel", 0.5, 0.4, 0.01}};
   setup.wear = {{.abrader = "grain", .worn = "steel", .wear_coefficient = 1e-10}};
-  WallSetup plate;
-  plate.name = "plate";
-  plate.material = "steel";
-  plate.mesh.shape = MeshShape::plate;
-  plate.mesh.length = plate.mesh.width = 16e-3;
-  plate.mesh.size = 2e-3;
-  plate.motion.kind = MotionKind::oscillation;
-  plate.motion.amplitude = {1e-3, 0.0, 0.2e-3};
-  plate.motion.frequency = 40.0;
+  WallSetup plate = test::plate("plate", "steel", 16e-3, 2e-3);
+  plate.motion = test::oscillation({1e-3, 0.0, 0.2e-3}, 40.0);
   plate.contact = contact;
   plate.deform_every = 3;
-  WallSetup side;
-  side.name = "side";
-  side.material = "steel";
-  side.mesh.shape = MeshShape::plane;
-  side.mesh.position = {-9e-3, 0.0, 0.0};
-  side.mesh.normal = {1.0, 0.0, 0.0};
-  setup.walls = {plate, side};
+  setup.walls = {plate, test::plane("side", {-9e-3, 0.0, 0.0}, {1.0, 0.0, 0.0}, "steel")};
   ParticleSetup named;
   named.name = "ball";
   named.material = "grain";
