@@ -131,6 +131,52 @@ TEST(BulkState, OnAWallOfCombinedMotionsGoesOnToTheSameBits) {
   test::expect_same_bits_on_other_threads(setup, 700, 1400);
 }
 
+/// Grains that hop on a plate which turns under them and wears away: most of them sleep beside it at any
+/// time.
+simulation::Setup hopping_on_a_turning_plate(ContactRule contact) {
+  constexpr double R = 1e-3;
+  simulation::Setup setup = test::grains(0.7, 0.4, 0.0);
+  setup.insertions[0].placed = test::lattice(144, 12, R, 2.3 * R, 0.3);
+  for (PlacedSphere& s : setup.insertions[0].placed) s.position -= Vec3{13.8e-3, 13.8e-3, -0.02e-3};
+  setup.wear = {{.abrader = "grain", .worn = "grain", .wear_coefficient = 1e-7}};
+  WallSetup plate = test::plate("plate", "grain", 60e-3, 4e-3);
+  plate.motion.kind = MotionKind::rotation;
+  plate.motion.rate = 20.0;
+  plate.contact = contact;
+  plate.deformation = DeformationRule::conserving;
+  plate.deform_every = 5;
+  setup.walls = {plate};
+  setup.run.gravity = {0.0, 0.0, -9.81};
+  return setup;
+}
+
+std::size_t asleep(const Simulation& run) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(run.bulk()->walls().meshes(),
+                            [](const BulkWalls::NearMesh& m) { return !m.awake || m.way.any > 0.0; }));
+}
+
+TEST(BulkState, WhereSpheresSleepBesideAWallThatWearsGoesOnToTheSameBits) {
+  for (const ContactRule contact : {ContactRule::resolved, ContactRule::automatic}) {
+    const simulation::Setup setup = hopping_on_a_turning_plate(contact);
+    Simulation whole(setup);
+    std::vector<std::string> states;
+    for (const std::uint64_t from : {150, 290, 430, 601}) {
+      finish(whole, from);
+      EXPECT_GT(asleep(whole), 20u) << "step " << from;
+      states.push_back(saved(whole));
+    }
+    finish(whole, 1200);
+    EXPECT_GT(whole.ledger().law, 0.0);
+    for (const std::string& state : states) {
+      Simulation run = loaded(setup, state);
+      const std::uint64_t from = run.steps();
+      finish(run, 1200);
+      EXPECT_TRUE(saved(run) == saved(whole)) << "from step " << from;
+    }
+  }
+}
+
 /// A number of particles that is shared out among threads, on a plate that wears and moves, sides periodic.
 struct Together {
   std::string name;
