@@ -131,22 +131,25 @@ TEST(BulkState, OnAWallOfCombinedMotionsGoesOnToTheSameBits) {
   test::expect_same_bits_on_other_threads(setup, 700, 1400);
 }
 
-/// Grains that hop on a plate which turns under them and wears away: most of them sleep beside it at any
-/// time.
+/// Grains in a box that hop by a hundredth of their radius on a plate which turns under them, shakes and
+/// wears: they sleep and wake beside triangles that were listed before, and meanwhile the wear moves these by
+/// more and less than what MeshCandidates tolerates of patches.
 simulation::Setup hopping_on_a_turning_plate(ContactRule contact) {
-  constexpr double R = 1e-3;
+  constexpr double R = 1e-3, pitch = 2.02 * R, half = 6 * pitch;
   simulation::Setup setup = test::grains(0.7, 0.4, 0.0);
-  setup.insertions[0].placed = test::lattice(144, 12, R, 2.3 * R, 0.3);
-  for (PlacedSphere& s : setup.insertions[0].placed) s.position -= Vec3{13.8e-3, 13.8e-3, -0.02e-3};
-  setup.wear = {{.abrader = "grain", .worn = "grain", .wear_coefficient = 1e-7}};
-  WallSetup plate = test::plate("plate", "grain", 60e-3, 4e-3);
+  setup.insertions[0].placed = test::lattice(144, 12, R, pitch, 0.01);
+  for (PlacedSphere& s : setup.insertions[0].placed) s.position -= Vec3{half, half, 0.02 * R};
+  setup.wear = {{.abrader = "grain", .worn = "grain", .wear_coefficient = 3e-5}};
+  WallSetup plate = test::plate("plate", "grain", 40e-3, 0.5e-3);
   plate.motion.kind = MotionKind::rotation;
-  plate.motion.rate = 20.0;
+  plate.motion.rate = 5.0;
+  plate.carried_by = {test::oscillation({0.0, 0.0, 8e-6}, 1000.0)};
   plate.contact = contact;
   plate.deformation = DeformationRule::conserving;
-  plate.deform_every = 5;
-  setup.walls = {plate};
-  setup.run.gravity = {0.0, 0.0, -9.81};
+  setup.walls = {
+      plate, test::plane("left", {-half, 0, 0}, {1, 0, 0}), test::plane("right", {half, 0, 0}, {-1, 0, 0}),
+      test::plane("front", {0, -half, 0}, {0, 1, 0}), test::plane("back", {0, half, 0}, {0, -1, 0})};
+  setup.run.gravity = {0.0, 0.0, -100.0};
   return setup;
 }
 
@@ -161,9 +164,9 @@ TEST(BulkState, WhereSpheresSleepBesideAWallThatWearsGoesOnToTheSameBits) {
     const simulation::Setup setup = hopping_on_a_turning_plate(contact);
     Simulation whole(setup);
     std::vector<std::string> states;
-    for (const std::uint64_t from : {150, 290, 430, 601}) {
+    for (const std::uint64_t from : {361, 722, 1083}) {
       finish(whole, from);
-      EXPECT_GT(asleep(whole), 20u) << "step " << from;
+      EXPECT_GT(asleep(whole), 70u) << "step " << from;
       states.push_back(saved(whole));
     }
     finish(whole, 1200);
@@ -172,7 +175,10 @@ TEST(BulkState, WhereSpheresSleepBesideAWallThatWearsGoesOnToTheSameBits) {
       Simulation run = loaded(setup, state);
       const std::uint64_t from = run.steps();
       finish(run, 1200);
-      EXPECT_TRUE(saved(run) == saved(whole)) << "from step " << from;
+      // Not all that is saved: what a sphere that sleeps knows of the wall is from when it was last awake.
+      EXPECT_EQ(run.state_hash(), whole.state_hash()) << "from step " << from;
+      EXPECT_EQ(run.ledger().swept, whole.ledger().swept) << "from step " << from;
+      EXPECT_EQ(run.ledger().paper, whole.ledger().paper) << "from step " << from;
     }
   }
 }
