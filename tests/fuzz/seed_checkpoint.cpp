@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes what fuzz_checkpoint starts from: states of its runs, and a checkpoint file. To be run again
-// whenever a state has other fields (FuzzCorpus.StatesAreReadByThisVersion). usage: fuzz_seed_checkpoint DIR
+// whenever a state has other fields (FuzzCorpus.StatesAreReadByThisVersion): ninja -C build/ci fuzz_seeds.
+// usage: fuzz_seed_checkpoint DIR
 #include <fstream>
 #include <string>
 #include <tuple>

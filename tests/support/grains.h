@@ -28,14 +28,34 @@ class OneThread {
   int before_;
 };
 
-inline WallSetup plane(const std::string& name, const Vec3& point, const Vec3& normal) {
+inline WallSetup plane(const std::string& name, const Vec3& point, const Vec3& normal,
+                       const std::string& material = "grain") {
   WallSetup wall;
   wall.name = name;
-  wall.material = "grain";
+  wall.material = material;
   wall.mesh.shape = MeshShape::plane;
   wall.mesh.position = point;
   wall.mesh.normal = normal;
   return wall;
+}
+
+/// A square mesh, its middle at the origin, its normal up. @param size of its triangles [m]
+inline WallSetup plate(const std::string& name, const std::string& material, double side, double size) {
+  WallSetup wall;
+  wall.name = name;
+  wall.material = material;
+  wall.mesh.shape = MeshShape::plate;
+  wall.mesh.length = wall.mesh.width = side;
+  wall.mesh.size = size;
+  return wall;
+}
+
+inline MotionSetup oscillation(const Vec3& amplitude, double frequency) {
+  MotionSetup motion;
+  motion.kind = MotionKind::oscillation;
+  motion.amplitude = amplitude;
+  motion.frequency = frequency;
+  return motion;
 }
 
 /// Grains of one material, in an open box [0, side] x [0, side] where side > 0.
@@ -118,18 +138,11 @@ inline simulation::Setup tray() {
   simulation::Setup setup = grains(0.5, 0.4, 0.0);
   setup.insertions[0].placed = lattice(kAcross * kAcross, kAcross, R, 2.1 * R, 0.2);
   setup.wear = {{.abrader = "grain", .worn = "grain", .wear_coefficient = 1e-10}};
-  WallSetup plate;
-  plate.name = "tray";
-  plate.material = "grain";
-  plate.mesh.shape = MeshShape::plate;
-  plate.mesh.length = plate.mesh.width = 90e-3;
-  plate.mesh.size = 6e-3;
-  plate.mesh.position = {38e-3, 38e-3, 0.0};
-  plate.motion.kind = MotionKind::oscillation;
-  plate.motion.amplitude = {0.5e-3, 0.0, 0.2e-3};
-  plate.motion.frequency = 100.0;
-  plate.contact = ContactRule::resolved;
-  setup.walls = {plate, plane("end", {0, 0, 0}, {1, 0, 0})};
+  WallSetup tray = plate("tray", "grain", 90e-3, 6e-3);
+  tray.mesh.position = {38e-3, 38e-3, 0.0};
+  tray.motion = oscillation({0.5e-3, 0.0, 0.2e-3}, 100.0);
+  tray.contact = ContactRule::resolved;
+  setup.walls = {tray, plane("end", {0, 0, 0}, {1, 0, 0})};
   setup.run.gravity = {0.0, 0.0, -9.81};
   setup.run.end = setup.output.every = {2e-3, false};
   return setup;
@@ -144,17 +157,12 @@ inline simulation::Setup stream_on_plate(double settle, double wearing) {
   setup.materials = {{"ore", 2700.0, 1e7, 0.25, {}}, {"steel", 7850.0, 78e9, 0.3, {}}};
   setup.contacts = {{"ore", "ore", 0.4, 0.5, 0.05}, {"ore", "steel", 0.4, 0.4, 0.05}};
   setup.wear = {{.abrader = "ore", .worn = "steel", .wear_coefficient = 2e-7}};
-  WallSetup plate;
-  plate.name = "plate";
-  plate.material = "steel";
-  plate.mesh.shape = MeshShape::plate;
-  plate.mesh.length = plate.mesh.width = 60e-3;
-  plate.mesh.size = 4e-3;
-  plate.mesh.rotation = {0.0, 0.7, 0.0};
-  plate.contact = ContactRule::automatic;
-  plate.deformation = DeformationRule::conserving;
-  plate.deform_every = 20;
-  setup.walls = {plate};
+  WallSetup slope = plate("plate", "steel", 60e-3, 4e-3);
+  slope.mesh.rotation = {0.0, 0.7, 0.0};
+  slope.contact = ContactRule::automatic;
+  slope.deformation = DeformationRule::conserving;
+  slope.deform_every = 20;
+  setup.walls = {slope};
   InsertionSetup feed;
   feed.name = "feed";
   feed.material = "ore";

@@ -113,23 +113,13 @@ TEST(BulkAcceleration, OfABodyHeldOnABeltIsArchards) {
   body.spheres = {
       {{c, c, c}, kRadius}, {{c, -c, -c}, kRadius}, {{-c, c, -c}, kRadius}, {{-c, -c, c}, kRadius}};
   setup.shapes = {body};
-  WallSetup belt;
-  belt.name = "belt";
-  belt.material = "steel";
-  belt.mesh.shape = MeshShape::plate;
-  belt.mesh.length = belt.mesh.width = 40e-3;
-  belt.mesh.size = 2e-3;
+  WallSetup belt = plate("belt", "steel", 40e-3, 2e-3);
   belt.motion.surface_velocity = {kSpeed, 0.0, 0.0};
   belt.contact = ContactRule::automatic;
   belt.deformation = DeformationRule::conserving;
-  setup.walls = {belt};
-  const auto smooth = [&](const char* name, const Vec3& at, const Vec3& normal) {
-    setup.walls.push_back(plane(name, at, normal));
-    setup.walls.back().material = "smooth";
-  };
   const double across = std::sqrt(0.5);
-  smooth("left", {12e-3, 0, 0}, {-across, across, 0});
-  smooth("right", {12e-3, 0, 0}, {-across, -across, 0});
+  setup.walls = {belt, plane("left", {12e-3, 0, 0}, {-across, across, 0}, "smooth"),
+                 plane("right", {12e-3, 0, 0}, {-across, -across, 0}, "smooth")};
   InsertionSetup one;
   one.name = "one";
   one.material = "ore";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abradem/report/report.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "abradem/cli/commands.h"
 #include "abradem/cli/print.h"

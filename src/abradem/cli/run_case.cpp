@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abradem/cli/run_case.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -329,7 +329,6 @@ int run_case(const RunOptions& options) {
                .record = {},
                .report = options.report,
                .json = options.json};
-  how.record.inputs_hash = io::inputs_hash(options.setup);
   simulation::Setup given = options.setup;
   const std::vector<std::string> notes = io::read_insertion_files(given);
   io::read_motion_files(given);
@@ -338,6 +337,7 @@ int run_case(const RunOptions& options) {
   if (choose) setup = study::accelerated(setup, 1.0);
   Simulation run(setup, MeshLoader(setup));
   io::refuse_misplaced_particles(run);
+  how.record.inputs_hash = io::inputs_hash(options.setup);  // reads the meshes, which may be refused for their size
 
   const StopSignals signals;
   OutputFolder folder(options.output, options.force);

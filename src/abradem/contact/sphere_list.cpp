@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "abradem/core/parallel.h"
+#include "abradem/core/periodic.h"
 
 namespace abradem::contact {
 
@@ -125,14 +126,8 @@ std::uint8_t SphereList::image_of(const Vec3& apart) const noexcept {
 }
 
 void SphereList::sort_along_curve(Spheres& spheres, double cell) {
-  const auto wrap = [](double& x, double low, double period) {
-    if (!(period > 0.0)) return;
-    x -= period * std::floor((x - low) / period);
-    if (x >= low + period) x = low;  // by rounding
-  };
   if (period_ != Vec3{})
-    for (SphereRow& s : spheres.row)
-      wrap(s.x, low_.x, period_.x), wrap(s.y, low_.y, period_.y), wrap(s.z, low_.z, period_.z);
+    for (SphereRow& s : spheres.row) s.set_position(wrapped(s.position(), low_, period_));
   const std::vector<std::int32_t> was = close_gaps(spheres);
   constexpr double kInf = std::numeric_limits<double>::infinity();
   Vec3 low{kInf, kInf, kInf}, high = -low;

@@ -2,7 +2,7 @@
 // docs/theory/meshes.md explains the method and states the quality reached.
 #include "abradem/geometry/generators.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

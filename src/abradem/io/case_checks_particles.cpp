@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Named particles: where they are, and what presses them.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

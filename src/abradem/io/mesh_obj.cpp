@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Wavefront files: `v x y z` and `f v/vt/vn …`; everything else describes looks.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "abradem/io/mesh_text.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stanford polygon files [Turk, "The PLY Polygon File Format", 1994]: a text header that describes rows of
 // numbers and lists, then the rows, as text or binary of either byte order.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>

@@ -4,7 +4,7 @@
 // [compressed sizes …] as UInt64, then the compressed blocks.
 #include "abradem/io/vtp.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <zlib.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abradem/report/page_parts.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "abradem/core/error.h"
 #include "abradem/report/page_source.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abradem/simulation/bulk.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -98,13 +98,15 @@ Bulk::Bulk(const Setup& setup, const std::vector<material::Material>& materials,
     inserters_.emplace_back(insertion, static_cast<int>(m), materials[m].density, setup.run.seed, kStream + k,
                             shape != shapes.end() ? &*shape : nullptr);
   }
-  take_in(0.0, walls);
+  std::vector<geometry::Pose> poses;
+  for (const Wall& wall : walls) poses.push_back(wall.pose_at(0.0));
+  take_in(0.0, walls, poses);
 }
 
-void Bulk::take_in(double time, std::span<const Wall> walls) {
+void Bulk::take_in(double time, std::span<const Wall> walls, std::span<const geometry::Pose> poses) {
   const auto clear = [&](const Vec3& centre, double radius) {
     for (std::size_t w = 0; w < walls.size(); ++w) {
-      const Vec3 c = walls[w].pose_at(time).to_body(centre);
+      const Vec3 c = poses[w].to_body(centre);
       if (walls[w].present(time) && (!is_clear_of(walls[w], c, radius) || is_inside(w, walls[w], c)))
         return false;
     }
@@ -128,7 +130,7 @@ void Bulk::take_in(double time, std::span<const Wall> walls) {
         worn_out_ = true;
       }
     }
-    if (gives_places(inserter.setup().volume.shape)) refuse_buried(inserter, first, time, walls);
+    if (gives_places(inserter.setup().volume.shape)) refuse_buried(inserter, first, time, walls, poses);
   }
   if (!clumps_.empty()) spheres_.clump.resize(spheres_.size(), -1);
 }
@@ -136,14 +138,13 @@ void Bulk::take_in(double time, std::span<const Wall> walls) {
 /// What a file or another run says may touch walls; but where this case has its walls elsewhere, it may lie
 /// in them.
 void Bulk::refuse_buried(const Inserter& inserter, std::size_t first, double time,
-                         std::span<const Wall> walls) {
+                         std::span<const Wall> walls, std::span<const geometry::Pose> poses) {
   for (std::size_t w = 0; w < walls.size(); ++w) {
     if (!walls[w].present(time)) continue;
-    const geometry::Pose pose = walls[w].pose_at(time);
     std::size_t count = 0, example = 0;
     for (std::size_t i = first; i < spheres_.size(); ++i) {
       const contact::SphereRow& s = spheres_.row[i];
-      const Vec3 c = pose.to_body(s.position());
+      const Vec3 c = poses[w].to_body(s.position());
       if (is_clear_of(walls[w], c, (1.0 - kDeepestInWall) * s.radius) && !is_inside(w, walls[w], c)) continue;
       if (count++ == 0) example = i;
     }
@@ -229,7 +230,7 @@ void Bulk::fetch_named(const Particles& named) {
 }
 
 void Bulk::find_contacts(const Surroundings& around, const Particles& named, std::vector<double>& paper) {
-  take_in(around.time, around.walls);
+  take_in(around.time, around.walls, around.poses);
   fetch_named(named);
   const double by_walls = walls_.fastest_wall() * wall_time_;
   worn_out_ = worn_out_ || around.time >= walls_.next_removal();

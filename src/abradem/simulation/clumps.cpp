@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abradem/simulation/clumps.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 
 #include "abradem/core/error.h"
 #include "abradem/core/parallel.h"
+#include "abradem/core/periodic.h"
 
 namespace abradem::simulation {
 
@@ -160,14 +161,7 @@ void Clumps::settle(contact::Spheres& spheres, const Vec3& low, const Vec3& peri
   clumps_.resize(kept);
   for (std::int32_t& c : spheres.clump)
     if (c >= 0) c = now[at(c)];
-  const auto wrap = [](double& x, double from, double length) {
-    if (length > 0.0) x -= length * std::floor((x - from) / length);
-  };
-  for (Clump& c : clumps_) {
-    wrap(c.position.x, low.x, period.x);
-    wrap(c.position.y, low.y, period.y);
-    wrap(c.position.z, low.z, period.z);
-  }
+  for (Clump& c : clumps_) c.position = wrapped(c.position, low, period);
   static_cast<void>(locate(spheres, period));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Load control: a guided sphere stands where contact and friction carry its load. docs/theory/quasi-static.md
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

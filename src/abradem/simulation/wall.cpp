@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abradem/simulation/wall.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "abradem/core/error.h"
 #include "abradem/geometry/generators.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A state that the equations no longer describe stops the run, with what is needed to see why.
 // docs/reliability.md#watchdogs
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Maps of what the walls suffer. docs/theory/wear.md#maps
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

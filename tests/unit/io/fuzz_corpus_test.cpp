@@ -26,7 +26,7 @@ std::string content(const std::filesystem::path& file) {
 void go_on(const simulation::Setup& setup, const std::string& state) {
   simulation::Simulation run(setup);
   core::ArchiveReader archive(state);
-  ASSERT_NO_THROW(run.load(archive)) << "write them anew: build/asan/tests/fuzz/fuzz_seed_checkpoint "
+  ASSERT_NO_THROW(run.load(archive)) << "write them anew: ninja -C build/ci fuzz_seeds"
                                      << kCorpus / "checkpoint";
   EXPECT_NO_THROW(run.step());
 }

@@ -221,7 +221,7 @@ TEST(Watchdog, ATriangleThatTurnsOverStopsTheRun) {
   s.walls[0].motion.kind = MotionKind::oscillation;
   s.walls[0].motion.amplitude = {1e-3, 0.0, 0.0};
   s.walls[0].motion.frequency = 1.0;
-  s.wear[0].wear_coefficient = 4e-12;  // little in a step, or the guard of steps too deep comes first
+  s.wear[0].wear_coefficient = 1.6e-11;  // little in a step, or the guard of steps too deep comes first
   s.run.increment = 0.05e-3;
   s.particles[0].position = {0.0, 0.0, s.particles[0].radius};
   s.run.end = s.output.every = {200.0, true};
