@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +28,23 @@ struct CandidateSkin {
   double tangential = 0.0;  ///< to any side [m]
   double normal = 0.0;      ///< [m]
   Vec3 slide{};             ///< besides, from where it is to where it is going, across the normal [m]
+};
+
+/// One of the candidates with all that point contacts and their footprints ask of it, in one piece.
+struct CandidateTriangle {
+  std::array<Vec3, 3> corner;     ///< [m]
+  Vec3 normal;                    ///< outwards, times the area [m^2]
+  double area = 0.0;              ///< [m^2]
+  double longest = 0.0;           ///< longest edge squared [m^2]
+  std::array<Index, 3> vertex{};  ///< of the mesh
+  Index triangle = 0;             ///< of the mesh
+  std::int32_t local = 0;         ///< among the candidates
+
+  [[nodiscard]] bool has(Index v) const noexcept {
+    return vertex[0] == v || vertex[1] == v || vertex[2] == v;
+  }
+  /// Brings it to where its vertices are now, to the bit as the candidates would have it.
+  void follow(const geometry::TriangleMesh& mesh) noexcept;
 };
 
 /// The triangles of a mesh that one sphere can meet, gathered into small contiguous arrays with vertices of
@@ -76,6 +94,7 @@ class MeshCandidates {
     archive("slide", self.built_skin_.slide)("built_reach", self.built_reach_);
     archive("odometer_at_gather", self.odometer_at_gather_);
     archive("odometer_at_measure", self.odometer_at_measure_);
+    archive("longest_edge2_at_gather", self.longest_edge2_at_gather_);
     archive("revision", self.revision_)("gatherings", self.gatherings_);
   }
   /// After loading: makes the arrays of the triangles loaded, bit for bit as they were.
@@ -96,6 +115,10 @@ class MeshCandidates {
   /// All candidates face nearly the same way (within 10 degrees): one patch, no clusters to look for.
   [[nodiscard]] bool nearly_flat() const noexcept { return nearly_flat_; }
   [[nodiscard]] Vec3 node_position(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
+  /// Local triangle t by itself.
+  [[nodiscard]] CandidateTriangle triangle_at(std::size_t t) const noexcept;
+  /// Longest edge when they were gathered, squared [m^2].
+  [[nodiscard]] double longest_edge2_at_gather() const noexcept { return longest_edge2_at_gather_; }
   [[nodiscard]] std::uint64_t gatherings() const noexcept { return gatherings_; }
   /// A number that no other gathering has, of this or another object.
   [[nodiscard]] std::uint64_t stamp() const noexcept { return stamp_; }
@@ -148,7 +171,7 @@ class MeshCandidates {
   Vec3 built_at_, built_axis_;
   CandidateSkin built_skin_;
   double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
-  double odometer_ = 0.0;
+  double odometer_ = 0.0, longest_edge2_at_gather_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0, stamp_ = 0;
   std::vector<Vec3> measured_;  // nodes' positions when the triangles were last measured
   std::vector<Index> near_;     // scratch: triangles of the cells near the way

@@ -130,7 +130,10 @@ class SphereWall {
       __builtin_prefetch(line);
   }
   void fetch_arrays() const noexcept {
-    if (face_.triangle < 0) {
+    if (near_) {
+      const auto* from = reinterpret_cast<const char*>(near_.get());
+      for (const auto* line = from; line < from + sizeof(Near); line += 64) __builtin_prefetch(line);
+    } else {
       candidates_.fetch();
       points_.fetch();
     }
@@ -155,8 +158,8 @@ class SphereWall {
   /// run at once.
   void find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
 
-  /// Was the contact of this step known to be on the triangle of the step before, without a search?
-  [[nodiscard]] bool on_face() const noexcept { return on_face_; }
+  /// Were the contacts of this step found among few triangles, without a search?
+  [[nodiscard]] bool is_near() const noexcept { return is_near_; }
   /// After a find without contacts: where the sphere may go before there can be one.
   [[nodiscard]] contact::FreeWay free_way(const Wall& wall) const noexcept;
 
@@ -306,28 +309,21 @@ class SphereWall {
     int part = 0;
     bool of_point = false;
   };
-  /// The one triangle that a point contact lies on, of many contacts with meshes all that a step reads of
-  /// them. While the surface is the same and the sphere on its free way, the ball reaches no other triangle,
-  /// the candidates are not stale, and so a search would give the same bits.
-  struct Face {
-    geometry::Index triangle = -1;  // of the mesh; -1: there is none
-    std::int32_t local = 0;         // in the candidates
-    std::uint64_t revision = 0;     // of the surface
-    contact::FreeWay way;           // past all others
-    double load = 0.0;              // up to which the candidates reach far enough [N]
-    double width = 0.0;             // [m]
-    std::array<Vec3, 3> corner;
-    Vec3 normal;        // times area
-    double area = 0.0;  // [m^2]
+  /// The few triangles around point contacts, of many contacts with meshes all that a step reads of the
+  /// mesh. While the sphere is on its way past all others, the candidates are not stale, and so a search would
+  /// give the same bits.
+  struct Near {
+    bool holds = false;
+    std::uint64_t revision = 0;  // of the surface
+    double load = 0.0;           // up to which the candidates reach far enough [N]
+    contact::FewTriangles few;
   };
-  [[nodiscard]] std::array<Vec3, 3> corners_of(std::size_t t) const noexcept;
-  [[nodiscard]] bool stays_on_face(const Wall& wall, const Vec3& c, double load) const noexcept {
-    return face_.triangle >= 0 && wall.surface().revision() == face_.revision && load <= face_.load &&
-           face_.way.holds(c, wall.surface().odometer());
+  [[nodiscard]] bool stays_near(const Wall& wall, const Vec3& c, double load) const noexcept {
+    return near_ && near_->holds && load <= near_->load && near_->few.way.holds(c, wall.surface().odometer());
   }
-  [[nodiscard]] bool touch_face(const Wall& wall, const Vec3& c, double R,
+  [[nodiscard]] bool touch_near(const Wall& wall, const Vec3& c, double R,
                                 const contact::PairProperties& pair);
-  void note_face(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
+  void note_near(const Wall& wall, double R, const contact::PairProperties& pair);
   const std::vector<Spot>& find_spots(const Wall& wall);
   [[nodiscard]] std::span<const char> mask_of(const Wall& wall, int part, bool of_point);
   [[nodiscard]] wear::OverlapField overlap_field(double R, double deepest, bool of_point);
@@ -340,7 +336,10 @@ class SphereWall {
     std::span<const WearShare> triangles;
     [[nodiscard]] bool nowhere() const noexcept { return nodes == nullptr && triangles.empty(); }
   };
-  [[nodiscard]] bool lands_inside(const Touch& touch, double a, WearShare& share) const;
+  [[nodiscard]] static bool lands_inside(const contact::CandidateTriangle& triangle, const Vec3& point,
+                                         double a, WearShare& share) noexcept;
+  void land_on_triangles(const Wall& wall, const Touch& touch, double R, double d_e,
+                         std::vector<WearShare>& shares);
   /// @param d_e Hertz's approach of its force [m]   @return valid until the next call
   [[nodiscard]] Landing land(const Wall& wall, const Touch& touch, double R, double d_e);
   void deposit_landed(Wall& wall, const Landing& landing, double dV);
@@ -371,6 +370,7 @@ class SphereWall {
                             contact::TangentialHistory& history, Vec3& torque) const;
   void add_centroid_motion(const Wall& wall);
   [[nodiscard]] double unnoted_centroid_volume(const Wall& wall);
+  [[nodiscard]] double area_when_noted(std::size_t t) const noexcept;
   void note_nodes();
   [[nodiscard]] bool inside(std::size_t t) const noexcept;
 
@@ -378,8 +378,8 @@ class SphereWall {
   // read.
   Scratch* scratch_ = nullptr;
   bool stale_ = true;     // the candidates were gathered anew in this step
-  bool on_face_ = false;  // this step's contact was found on face_, without a search
-  Face face_;
+  bool is_near_ = false;  // this step's contacts were found among near_, without a search
+  std::unique_ptr<Near> near_;
   double reach_ = 0.0;
   contact::CandidateSkin skin_;
   Vec3 noted_at_;
