@@ -151,14 +151,16 @@ bool PointContactFinder::note(const MeshCandidates& candidates, double most, Few
     if (k < near.size()) near[k] = {static_cast<std::int32_t>(t), gap};
   }
   std::array<std::int32_t, FewTriangles::kMost> these{};
-  for (std::size_t k = 0; k < count; ++k) these[k] = near[k].triangle;
-  std::sort(these.begin(), these.begin() + static_cast<std::ptrdiff_t>(count));
   few.count = count;
-  few.way = way_past(most, std::span(these).first(count));
   for (std::size_t k = 0; k < count; ++k) {
+    these[k] = near[k].triangle;
     few.triangle[k] = candidates.triangle_at(at(these[k]));
     few.out[k] = out_[at(these[k])];
+    few.order[k] = static_cast<std::uint8_t>(k);
   }
+  few.way = way_past(most, std::span(these).first(count));
+  std::sort(few.order.begin(), few.order.begin() + static_cast<std::ptrdiff_t>(count),
+            [&](std::uint8_t a, std::uint8_t b) { return these[a] < these[b]; });
   return true;
 }
 
@@ -194,7 +196,7 @@ std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates&
 std::span<const PointContact> PointContactFinder::resolved(FewTriangles& few, const Vec3& c, double R,
                                                            double odometer, bool sheet) {
   begin(c, R, odometer);
-  for (std::size_t k = 0; k < few.count; ++k)
+  for (const std::size_t k : std::span(few.order).first(few.count))
     if (!few.out[k].holds(c, odometer)) meet(few.triangle[k], c, R, {}, sheet, few.out[k]);
   return deepest_of_sets();
 }

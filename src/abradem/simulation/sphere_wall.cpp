@@ -275,7 +275,7 @@ SphereWall::Memory& SphereWall::recall(const Touch& touch, ContactRule rule) {
                                                            : -norm2(m.point - touch.point);
     if (score > best_score) best = &m, best_score = score;
   }
-  Memory& memory = kept_.emplace_back();
+  Memory& memory = scratch().kept.emplace_back();
   memory.n = touch.n;
   memory.point = touch.point;
   memory.key = touch.key;
@@ -308,7 +308,7 @@ void SphereWall::watch_impact(Memory& memory, const Touch& touch, const Vec3& v)
   if (!memory.striking) return;
   memory.approaching = false;
   if (touch.weight == 1.0) return;
-  for (auto* memories : {&memory_, &kept_})
+  for (auto* memories : {&memory_, &scratch().kept})
     for (Memory& m : *memories)
       if (dot(m.n, touch.n) > 0.9) m.approaching = false;
 }
@@ -373,8 +373,9 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
                                    const contact::PairProperties& pair, double dt) {
   ForceAndTorque total;
   rolling_ = {};
-  kept_.clear();
-  kept_.reserve(touches_.size());  // recall hands out references
+  std::vector<Memory>& kept = scratch().kept;
+  kept.clear();
+  kept.reserve(touches_.size());  // recall hands out references
   for (Touch& touch : touches_) {
     const Vec3 n = pose.turn(touch.n);
     const Vec3 arm = -sphere.radius * n;
@@ -383,13 +384,13 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
                                 pose.turn_back(v)};
     if (wall.is_belt()) state.v -= wall.belt_velocity(touch.n);
     Memory& memory = recall(touch, wall.setup().contact);
-    touch.memory = static_cast<int>(kept_.size()) - 1;
+    touch.memory = static_cast<int>(kept.size()) - 1;
     if (wall.watches_impacts()) watch_impact(memory, touch, state.v);
     if (pair.options.any()) {
       Vec3 torque;
       const Vec3 spin = pose.turn_back(sphere.spin - pose.spin);
       if (!compute_with_options(touch, state.v, sphere, spin, pair, dt, memory.history, torque)) {
-        kept_.pop_back();
+        kept.pop_back();
         touch.memory = -1;
         continue;
       }
@@ -411,7 +412,7 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
     total.torque += cross(arm, tangential) + rolling;
     rolling_ += rolling;
   }
-  memory_.swap(kept_);
+  memory_.assign(kept.begin(), kept.end());
   return total;
 }
 

@@ -45,6 +45,7 @@ struct MapLayer {
 /// What falls on one triangle of a contact's wear, as parts of the whole: in all, and at its corners.
 struct WearShare {
   geometry::Index triangle = 0;
+  geometry::Triangle vertex{};
   double whole = 0.0, at0 = 0.0, at1 = 0.0, at2 = 0.0;
   double area = 0.0;  ///< of the triangle [m^2]
 };
@@ -108,6 +109,28 @@ class SphereWall {
     }
   };
 
+ private:
+  struct Memory {
+    Vec3 n, point;
+    int key = -1;
+    contact::TangentialHistory history;
+    bool used = false;
+    bool of_point = false;
+    // Where the wall wears by impacts: how this one began, until the sphere no longer comes closer.
+    double speed = 0.0, angle = 0.0;  // [m/s], from the surface [rad]
+    bool approaching = false;
+    bool striking = false;  // it has just ceased to
+    bool fresh = false;     // it begins in this step
+
+    template <typename Self, typename Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive("n", self.n)("point", self.point)("key", self.key)("history", self.history);
+      archive("speed", self.speed)("angle", self.angle)("approaching", self.approaching);
+      archive("of_point", self.of_point);
+    }
+  };
+
+ public:
   /// What one step needs and nobody asks for afterwards. Objects that are used one after another may share
   /// one (lend): then it stays in the fast memory, and there may be thousands of them.
   struct Scratch {
@@ -115,6 +138,7 @@ class SphereWall {
     wear::FootprintIntegrator footprint;
     std::vector<WearShare> shares;  // of the last landing
     std::vector<char> mask;
+    std::vector<Memory> kept;  // what the contacts of this step go on with
   };
   /// Null: it has its own. What ploughs must not share.
   void lend(Scratch* scratch) noexcept {
@@ -131,8 +155,7 @@ class SphereWall {
   }
   void fetch_arrays() const noexcept {
     if (near_) {
-      const auto* from = reinterpret_cast<const char*>(near_.get());
-      for (const auto* line = from; line < from + sizeof(Near); line += 64) __builtin_prefetch(line);
+      near_->few.fetch();
     } else {
       candidates_.fetch();
       points_.fetch();
@@ -144,8 +167,6 @@ class SphereWall {
     };
     ask(touches_);
     ask(memory_);
-    if (const auto* next = reinterpret_cast<const char*>(kept_.data()); next != nullptr)
-      for (std::size_t byte = 0; byte < sizeof(Memory); byte += 64) __builtin_prefetch(next + byte, 1);
   }
 
   /// First part of the search: settles what the last candidates still owe the wall. Where they owe it
@@ -273,25 +294,6 @@ class SphereWall {
   [[nodiscard]] bool restore(const Wall& wall);
 
  private:
-  struct Memory {
-    Vec3 n, point;
-    int key = -1;
-    contact::TangentialHistory history;
-    bool used = false;
-    bool of_point = false;
-    // Where the wall wears by impacts: how this one began, until the sphere no longer comes closer.
-    double speed = 0.0, angle = 0.0;  // [m/s], from the surface [rad]
-    bool approaching = false;
-    bool striking = false;  // it has just ceased to
-    bool fresh = false;     // it begins in this step
-
-    template <typename Self, typename Archive>
-    static void visit(Self& self, Archive& archive) {
-      archive("n", self.n)("point", self.point)("key", self.key)("history", self.history);
-      archive("speed", self.speed)("angle", self.angle)("approaching", self.approaching);
-      archive("of_point", self.of_point);
-    }
-  };
   struct Pressing {
     wear::PloughingContact contact;
     double force = 0.0;  // [N]
@@ -390,7 +392,7 @@ class SphereWall {
   static constexpr std::uint64_t kNeverNoted = ~std::uint64_t{0};
   std::uint64_t noted_revision_ = kNeverNoted;  // of the surface, when its nodes were last noted
   std::vector<Touch> touches_;
-  std::vector<Memory> memory_, kept_;
+  std::vector<Memory> memory_;
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
   std::vector<Vec3> noted_;           // of each candidate node: where it was when last noted
   contact::Tip tip_;

@@ -26,7 +26,7 @@ bool SphereWall::lands_inside(const contact::CandidateTriangle& triangle, const 
   const double size = std::sqrt(area2);
   if (b0 * size < a * norm(p2 - p1) || b1 * size < a * norm(p0 - p2) || b2 * size < a * norm(p1 - p0))
     return false;
-  share = {triangle.triangle, 1.0, b0, b1, b2, triangle.area};
+  share = {triangle.triangle, triangle.vertex, 1.0, b0, b1, b2, triangle.area};
   return true;
 }
 
@@ -50,7 +50,7 @@ void SphereWall::land_on_triangles(const Wall& wall, const Touch& touch, double 
   const double part = 1.0 / print.total;
   for (std::size_t k = 0; k < print.count; ++k)
     if (const double w = (print.at0[k] + print.at1[k]) + print.at2[k]; w > 0.0)
-      shares.push_back({under[k].triangle, part * w, part * print.at0[k], part * print.at1[k],
+      shares.push_back({under[k].triangle, under[k].vertex, part * w, part * print.at0[k], part * print.at1[k],
                         part * print.at2[k], under[k].area});
 }
 
@@ -62,11 +62,10 @@ SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, doubl
   const bool paper = wall.setup().deformation == DeformationRule::paper;
   if (wall.setup().contact == ContactRule::per_triangle) {
     const std::size_t t = at(touch.part);
-    WearShare share{candidates_.triangle[t], 1.0, 0.0, 0.0, 0.0, candidates_.area[t]};
+    const contact::CandidateTriangle triangle = candidates_.triangle_at(t);
+    WearShare share{triangle.triangle, triangle.vertex, 1.0, 0.0, 0.0, 0.0, triangle.area};
     if (!paper) {
-      const Vec3 a = candidates_.node_position(at(candidates_.v0[t]));
-      const Vec3 e1 = candidates_.node_position(at(candidates_.v1[t])) - a;
-      const Vec3 e2 = candidates_.node_position(at(candidates_.v2[t])) - a;
+      const Vec3 a = triangle.corner[0], e1 = triangle.corner[1] - a, e2 = triangle.corner[2] - a;
       const Vec3 p = touch.point - a;
       const double d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), det = d11 * d22 - d12 * d12;
       share.at1 = std::clamp((d22 * dot(p, e1) - d12 * dot(p, e2)) / det, 0.0, 1.0);
@@ -91,8 +90,8 @@ SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, doubl
   const double part = 1.0 / print.total;
   for (std::size_t t = 0; t < print.count; ++t)
     if (const double w = (print.at0[t] + print.at1[t]) + print.at2[t]; w > 0.0)
-      shares.push_back({candidates_.triangle[t], part * w, part * print.at0[t], part * print.at1[t],
-                        part * print.at2[t], candidates_.area[t]});
+      shares.push_back({candidates_.triangle[t], candidates_.triangle_at(t).vertex, part * w,
+                        part * print.at0[t], part * print.at1[t], part * print.at2[t], candidates_.area[t]});
   return {nullptr, shares};
 }
 
@@ -113,7 +112,7 @@ void SphereWall::deposit_landed(Wall& wall, const Landing& landing, double dV) {
     for (const WearShare& s : landing.triangles) surface.deposit_element(s.triangle, dV * s.whole);
   } else {
     for (const WearShare& s : landing.triangles)
-      surface.deposit(s.triangle, dV * s.whole, dV * s.at0, dV * s.at1, dV * s.at2);
+      surface.deposit(s.triangle, s.vertex, dV * s.whole, dV * s.at0, dV * s.at1, dV * s.at2);
   }
 }
 

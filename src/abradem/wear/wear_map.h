@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -39,10 +40,11 @@ class SparseBins {
     }
   };
   Sums& operator[](std::uint64_t key) {
-    if (last_ < entries_.size() && entries_[last_].key == key) return entries_[last_].sums;
+    std::uint32_t& found = found_[key * 0x9e3779b97f4a7c15u >> 54];
+    if (found < entries_.size() && entries_[found].key == key) return entries_[found].sums;
     auto place = std::ranges::lower_bound(entries_, key, {}, &Entry::key);
     if (place == entries_.end() || place->key != key) place = entries_.insert(place, Entry{key, {}});
-    last_ = static_cast<std::size_t>(place - entries_.begin());
+    found = static_cast<std::uint32_t>(place - entries_.begin());
     return place->sums;
   }
   /// In the order of the keys.
@@ -55,7 +57,7 @@ class SparseBins {
 
  private:
   std::vector<Entry> entries_;
-  std::size_t last_ = 0;
+  std::array<std::uint32_t, 1024> found_{};  // where keys were last found, by ten bits of their hash
 };
 
 /// Contacts that slide, by their normal force and sliding speed.
