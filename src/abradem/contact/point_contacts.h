@@ -155,7 +155,7 @@ class PointContactFinder {
   [[nodiscard]] Findings& found() noexcept { return lent_ != nullptr ? *lent_ : own_; }
   [[nodiscard]] const Findings& found() const noexcept { return lent_ != nullptr ? *lent_ : own_; }
 
-  std::vector<OutOfReach> out_;  // of each candidate
+  core::SmallVector<OutOfReach> out_;  // of each candidate
   double odometer_ = 0.0, radius_ = 0.0;
   Vec3 last_;
   std::uint64_t stamp_ = 0;  // of the candidates that these are of

@@ -373,7 +373,7 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
                                    const contact::PairProperties& pair, double dt) {
   ForceAndTorque total;
   rolling_ = {};
-  std::vector<Memory>& kept = scratch().kept;
+  core::SmallVector<Memory>& kept = scratch().kept;
   kept.clear();
   kept.reserve(touches_.size());  // recall hands out references
   for (Touch& touch : touches_) {

@@ -81,7 +81,7 @@ struct NormalParts {
 
 /// Everything between one sphere and one wall: what it touches, what each contact remembers, the force, and
 /// the wear it leaves. The step calls find, then compute, then deposit.
-class SphereWall {
+class SphereWall : public core::InSmallBlocks {
  public:
   /// One contact, in the wall's frame.
   struct Touch {
@@ -138,7 +138,7 @@ class SphereWall {
     wear::FootprintIntegrator footprint;
     std::vector<WearShare> shares;  // of the last landing
     std::vector<char> mask;
-    std::vector<Memory> kept;  // what the contacts of this step go on with
+    core::SmallVector<Memory> kept;  // what the contacts of this step go on with
   };
   /// Null: it has its own. What ploughs must not share.
   void lend(Scratch* scratch) noexcept {
@@ -250,8 +250,8 @@ class SphereWall {
   [[nodiscard]] ForceAndTorque load(const geometry::Pose& pose, double R) const noexcept;
   /// The sphere's centre at the last search, in the wall's frame.
   [[nodiscard]] const Vec3& centre() const noexcept { return centre_; }
-  [[nodiscard]] const std::vector<Touch>& touches() const noexcept { return touches_; }
-  [[nodiscard]] std::vector<Touch>& touches() noexcept { return touches_; }
+  [[nodiscard]] const core::SmallVector<Touch>& touches() const noexcept { return touches_; }
+  [[nodiscard]] core::SmallVector<Touch>& touches() noexcept { return touches_; }
   [[nodiscard]] const contact::MeshCandidates& candidates() const noexcept { return candidates_; }
   /// Elements in contact: under `patch` those with a corner in the ball, else the contacts.
   [[nodiscard]] int elements(const Wall& wall) const;
@@ -314,7 +314,7 @@ class SphereWall {
   /// The few triangles around point contacts, of many contacts with meshes all that a step reads of the
   /// mesh. While the sphere is on its way past all others, the candidates are not stale, and so a search would
   /// give the same bits.
-  struct Near {
+  struct Near : core::InSmallBlocks {
     bool holds = false;
     std::uint64_t revision = 0;  // of the surface
     double load = 0.0;           // up to which the candidates reach far enough [N]
@@ -391,10 +391,10 @@ class SphereWall {
   double centroid_volume_ = 0.0;
   static constexpr std::uint64_t kNeverNoted = ~std::uint64_t{0};
   std::uint64_t noted_revision_ = kNeverNoted;  // of the surface, when its nodes were last noted
-  std::vector<Touch> touches_;
-  std::vector<Memory> memory_;
+  core::SmallVector<Touch> touches_;
+  core::SmallVector<Memory> memory_;
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
-  std::vector<Vec3> noted_;           // of each candidate node: where it was when last noted
+  core::SmallVector<Vec3> noted_;           // of each candidate node: where it was when last noted
   contact::Tip tip_;
   contact::MeshCandidates candidates_;
   contact::PointContactFinder points_;
@@ -406,7 +406,7 @@ class SphereWall {
   wear::RidgeBuilder ridges_;
   double unpiled_ = 0.0, slid_ = 0.0;                 // since the last pile [m^3, m]
   std::vector<Pressing> ploughing_;                   // the last contacts
-  std::vector<contact::kernels::NodeMotion> motion_;  // of the nodes noted, since then, padded
+  core::SmallVector<contact::kernels::NodeMotion> motion_;  // of the nodes noted, since then, padded
   std::vector<double> terms_;                         // scratch
 };
 
