@@ -135,15 +135,15 @@ class MeshCandidates {
   }
 
   core::SmallVector<Index> node;               ///< mesh vertex of each local node
-  std::span<double> x, y, z;             ///< node positions, padded [m]
-  std::span<double> node_area;           ///< third of the area of the triangles around, padded [m^2]
-  std::span<double> bx, by, bz;          ///< third of their area vectors, padded [m^2]
+  std::span<double> x, y, z;                   ///< node positions, padded [m]
+  std::span<double> node_area;                 ///< third of the area of the triangles around, padded [m^2]
+  std::span<double> bx, by, bz;                ///< third of their area vectors, padded [m^2]
   core::SmallVector<std::int32_t> star_start;  ///< local triangles around node i: star[star_start[i]] … (CSR)
   core::SmallVector<std::int32_t> star;
   Vec3 mean_normal;                    ///< of all candidates, unit
   Vec3 mean_point;                     ///< of the nodes inside the ball when gathered, by overlap [m]
   double below_plane = 0.0;            ///< no node lies further below the plane through these two [m]
-  core::SmallVector<Index> triangle;         ///< mesh triangle of each local triangle
+  core::SmallVector<Index> triangle;   ///< mesh triangle of each local triangle
   std::span<std::int32_t> v0, v1, v2;  ///< local nodes of each triangle, padded
   std::span<double> ax, ay, az;        ///< area vectors, padded [m^2]
   std::span<double> plane;             ///< area vector . vertex, padded [m^3]
@@ -175,9 +175,9 @@ class MeshCandidates {
   double odometer_ = 0.0, longest_edge2_at_gather_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0, stamp_ = 0;
   core::SmallVector<Vec3> measured_;  // nodes' positions when the triangles were last measured
-  std::vector<Index> near_;     // scratch: triangles of the cells near the way
-  std::vector<double> across_;  // scratch: their distances from the way, or -1: out of reach
-  std::vector<double> around_;  // scratch: of measure_nodes
+  std::vector<Index> near_;           // scratch: triangles of the cells near the way
+  std::vector<double> across_;        // scratch: their distances from the way, or -1: out of reach
+  std::vector<double> around_;        // scratch: of measure_nodes
 };
 
 }  // namespace abradem::contact

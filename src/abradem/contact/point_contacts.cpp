@@ -175,13 +175,12 @@ std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandida
     // Owned by a stronger contact that touches the same feature: a face around it, an edge that ends in it,
     // or itself once more. (Not by an edge opposite to it: which of two triangles stands for an edge is
     // arbitrary.)
-    const bool owned =
-        a >= 0 && std::ranges::any_of(f.accepted, [&, a = a, b = b](const PointContact& q) {
-          const CandidateTriangle& triangle = f.triangles[q.place];
-          if (q.feature == Feature::face) return triangle.has(a) && triangle.has(b);
-          const auto [qa, qb] = feature_vertices(triangle, q.feature);
-          return (qa == a || qb == a) && (qa == b || qb == b);
-        });
+    const bool owned = a >= 0 && std::ranges::any_of(f.accepted, [&, a = a, b = b](const PointContact& q) {
+                         const CandidateTriangle& triangle = f.triangles[q.place];
+                         if (q.feature == Feature::face) return triangle.has(a) && triangle.has(b);
+                         const auto [qa, qb] = feature_vertices(triangle, q.feature);
+                         return (qa == a || qb == a) && (qa == b || qb == b);
+                       });
     if (!owned && p.overlap > 0.0) f.accepted.push_back(p);
   }
   return f.accepted;

@@ -5,8 +5,18 @@
 
 #include "abradem/core/large_pages.h"
 
+// Sanitizers are to watch each block by itself.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ABRADEM_WATCHED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define ABRADEM_WATCHED
+#endif
+#endif
+
 namespace abradem::core {
 
+#ifndef ABRADEM_WATCHED
 namespace {
 
 /// Pieces of slabs on large pages. What comes back is the pool's to use again: nothing does before the end.
@@ -34,13 +44,15 @@ class Slabs : public std::pmr::memory_resource {
 };
 
 }  // namespace
+#endif
 
 std::pmr::memory_resource& small_blocks() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return *std::pmr::new_delete_resource();  // the sanitizers watch each block
+#ifdef ABRADEM_WATCHED
+  return *std::pmr::new_delete_resource();
 #else
   // Never destroyed: objects with static lifetime may outlast it.
-  static auto* const pool = new std::pmr::synchronized_pool_resource({.max_blocks_per_chunk = 256, .largest_required_pool_block = 8192}, new Slabs);
+  static auto* const pool = new std::pmr::synchronized_pool_resource(
+      {.max_blocks_per_chunk = 256, .largest_required_pool_block = 8192}, new Slabs);
   return *pool;
 #endif
 }

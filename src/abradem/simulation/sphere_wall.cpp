@@ -58,8 +58,7 @@ void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
 bool SphereWall::touch_near(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
   if (const std::uint64_t revision = wall.surface().revision(); near_->revision != revision) {
     add_centroid_motion(wall);
-    for (std::size_t k = 0; k < near_->few.count; ++k)
-      near_->few.triangle[k].follow(wall.surface().mesh());
+    for (std::size_t k = 0; k < near_->few.count; ++k) near_->few.triangle[k].follow(wall.surface().mesh());
     near_->revision = revision;
   }
   const std::span<const contact::PointContact> points =
@@ -79,9 +78,8 @@ void SphereWall::note_near(const Wall& wall, double R, const contact::PairProper
   const ContactRule rule = wall.setup().contact;
   const bool points = rule == ContactRule::resolved || rule == ContactRule::automatic;
   if (!points || scratch_ == nullptr || tip_.worn() || pair.options.adhesion > 0.0 || touches_.empty() ||
-      owes_elements() || std::ranges::any_of(touches_, [](const Touch& t) {
-        return !t.of_point || t.weight != 1.0;
-      }))
+      owes_elements() ||
+      std::ranges::any_of(touches_, [](const Touch& t) { return !t.of_point || t.weight != 1.0; }))
     return;
   if (!near_) near_ = std::make_unique<Near>();
   if (!points_.note(candidates_, candidates_.skin_left(centre_), near_->few)) return;
@@ -206,7 +204,8 @@ void SphereWall::touch_either(const Wall& wall, const Vec3& c, double R, const c
   touch_points(wall, R, pair, points);
   for (std::size_t k = patches; k < touches_.size(); ++k) {
     Touch& t = touches_[k];
-    double fine = patches == 0 ? 0.0 : patches_.fineness_of(candidates_, points_.sets(candidates_), t.part, t.a);
+    double fine =
+        patches == 0 ? 0.0 : patches_.fineness_of(candidates_, points_.sets(candidates_), t.part, t.a);
     if (fine < 0.0) fine = contact::fineness(t.a, contact::width_of(candidates_, at(t.nearest)));
     t.weight = 1.0 - fine;
   }
@@ -229,8 +228,7 @@ bool SphereWall::suit_points(std::span<const contact::PointContact> points, doub
     const double share = contact::fineness(a, contact::width_of(t));
     coarse = coarse && share == 0.0;
     fine = fine && share == 1.0;
-    plane = plane &&
-            norm2(cross(t.normal, first.normal)) <= kPlane2 * norm2(t.normal) * norm2(first.normal);
+    plane = plane && norm2(cross(t.normal, first.normal)) <= kPlane2 * norm2(t.normal) * norm2(first.normal);
   }
   return coarse || (plane && !fine);
 }

@@ -312,8 +312,8 @@ class SphereWall : public core::InSmallBlocks {
     bool of_point = false;
   };
   /// The few triangles around point contacts, of many contacts with meshes all that a step reads of the
-  /// mesh. While the sphere is on its way past all others, the candidates are not stale, and so a search would
-  /// give the same bits.
+  /// mesh. While the sphere is on its way past all others, the candidates are not stale, and so a search
+  /// would give the same bits.
   struct Near : core::InSmallBlocks {
     bool holds = false;
     std::uint64_t revision = 0;  // of the surface
@@ -394,7 +394,7 @@ class SphereWall : public core::InSmallBlocks {
   core::SmallVector<Touch> touches_;
   core::SmallVector<Memory> memory_;
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
-  core::SmallVector<Vec3> noted_;           // of each candidate node: where it was when last noted
+  core::SmallVector<Vec3> noted_;     // of each candidate node: where it was when last noted
   contact::Tip tip_;
   contact::MeshCandidates candidates_;
   contact::PointContactFinder points_;
@@ -404,10 +404,10 @@ class SphereWall : public core::InSmallBlocks {
   double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
   double tip_area_ = 0.0;                       // of the tip under pressure, of late [m^2]
   wear::RidgeBuilder ridges_;
-  double unpiled_ = 0.0, slid_ = 0.0;                 // since the last pile [m^3, m]
-  std::vector<Pressing> ploughing_;                   // the last contacts
+  double unpiled_ = 0.0, slid_ = 0.0;                       // since the last pile [m^3, m]
+  std::vector<Pressing> ploughing_;                         // the last contacts
   core::SmallVector<contact::kernels::NodeMotion> motion_;  // of the nodes noted, since then, padded
-  std::vector<double> terms_;                         // scratch
+  std::vector<double> terms_;                               // scratch
 };
 
 }  // namespace abradem::simulation

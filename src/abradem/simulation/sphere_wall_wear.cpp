@@ -50,8 +50,8 @@ void SphereWall::land_on_triangles(const Wall& wall, const Touch& touch, double 
   const double part = 1.0 / print.total;
   for (std::size_t k = 0; k < print.count; ++k)
     if (const double w = (print.at0[k] + print.at1[k]) + print.at2[k]; w > 0.0)
-      shares.push_back({under[k].triangle, under[k].vertex, part * w, part * print.at0[k], part * print.at1[k],
-                        part * print.at2[k], under[k].area});
+      shares.push_back({under[k].triangle, under[k].vertex, part * w, part * print.at0[k],
+                        part * print.at1[k], part * print.at2[k], under[k].area});
 }
 
 /// Where what a contact does to the wall falls; on a plane nowhere.

@@ -62,6 +62,7 @@ void Simulation::fetch_elements(const WearRecords& records) {
     if (r.nodal) continue;
     const auto w = static_cast<std::size_t>(r.wall);
     const MapLayer map = map_layer(w, r.material);
+    if (map.layer != nullptr) map.layer->fetch(r.sample);
     for (std::size_t k = r.first; k < r.end; ++k) {
       const geometry::Index t = records.share[k].triangle;
       walls_[w].surface().fetch(t, records.share[k].vertex);
