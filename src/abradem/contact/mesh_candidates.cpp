@@ -34,7 +34,8 @@ std::size_t padded(std::size_t n) noexcept {
 
 /// Arrays of `count` one after another in a store.
 template <typename T>
-void lay_out(std::initializer_list<std::span<T>*> arrays, std::vector<T>& store, std::size_t count) noexcept {
+void lay_out(std::initializer_list<std::span<T>*> arrays, core::SmallVector<T>& store,
+             std::size_t count) noexcept {
   std::size_t from = 0;
   for (std::span<T>* array : arrays) {
     *array = std::span(store).subspan(from, count);
@@ -143,6 +144,26 @@ ABRADEM_DISPATCH void meet_triangles(const Sweep& sweep, const TriangleMesh& mes
 
 }  // namespace
 
+void CandidateTriangle::follow(const TriangleMesh& mesh) noexcept {
+  for (std::size_t k = 0; k < 3; ++k) corner[k] = mesh.vertices[at(vertex[k])];
+  const Vec3 e = corner[1] - corner[0], f = corner[2] - corner[0];
+  normal = 0.5 * cross(e, f);
+  area = norm(normal);
+  longest = larger(larger(norm2(e), norm2(f - e)), norm2(f));
+}
+
+CandidateTriangle MeshCandidates::triangle_at(std::size_t t) const noexcept {
+  const auto i0 = static_cast<std::size_t>(v0[t]), i1 = static_cast<std::size_t>(v1[t]),
+             i2 = static_cast<std::size_t>(v2[t]);
+  return {.corner = {node_position(i0), node_position(i1), node_position(i2)},
+          .normal = {ax[t], ay[t], az[t]},
+          .area = area[t],
+          .longest = longest[t],
+          .vertex = {node[i0], node[i1], node[i2]},
+          .triangle = triangle[t],
+          .local = static_cast<std::int32_t>(t)};
+}
+
 bool MeshCandidates::stale(const SurfaceView& surface, const Vec3& c, double reach) const noexcept {
   const Vec3 moved = c - built_at_;
   const double along = dot(moved, built_axis_);
@@ -207,6 +228,7 @@ void MeshCandidates::gather(const SurfaceView& surface, const Vec3& c, const Vec
   built_axis_ = axis;
   built_skin_ = skin;
   odometer_at_gather_ = odometer_at_measure_ = surface.odometer;
+  longest_edge2_at_gather_ = longest_edge2;
   revision_ = surface.revision;
   ++gatherings_;
   stamp_ = next_stamp();

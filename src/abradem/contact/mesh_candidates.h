@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "abradem/core/small_blocks.h"
 #include "abradem/geometry/triangle_grid.h"
 #include "abradem/geometry/triangle_mesh.h"
 
@@ -27,6 +29,23 @@ struct CandidateSkin {
   double tangential = 0.0;  ///< to any side [m]
   double normal = 0.0;      ///< [m]
   Vec3 slide{};             ///< besides, from where it is to where it is going, across the normal [m]
+};
+
+/// One of the candidates with all that point contacts and their footprints ask of it, in one piece.
+struct CandidateTriangle {
+  std::array<Vec3, 3> corner;     ///< [m]
+  Vec3 normal;                    ///< outwards, times the area [m^2]
+  double area = 0.0;              ///< [m^2]
+  double longest = 0.0;           ///< longest edge squared [m^2]
+  std::array<Index, 3> vertex{};  ///< of the mesh
+  Index triangle = 0;             ///< of the mesh
+  std::int32_t local = 0;         ///< among the candidates
+
+  [[nodiscard]] bool has(Index v) const noexcept {
+    return vertex[0] == v || vertex[1] == v || vertex[2] == v;
+  }
+  /// Brings it to where its vertices are now, to the bit as the candidates would have it.
+  void follow(const geometry::TriangleMesh& mesh) noexcept;
 };
 
 /// The triangles of a mesh that one sphere can meet, gathered into small contiguous arrays with vertices of
@@ -76,6 +95,7 @@ class MeshCandidates {
     archive("slide", self.built_skin_.slide)("built_reach", self.built_reach_);
     archive("odometer_at_gather", self.odometer_at_gather_);
     archive("odometer_at_measure", self.odometer_at_measure_);
+    archive("longest_edge2_at_gather", self.longest_edge2_at_gather_);
     archive("revision", self.revision_)("gatherings", self.gatherings_);
   }
   /// After loading: makes the arrays of the triangles loaded, bit for bit as they were.
@@ -96,6 +116,10 @@ class MeshCandidates {
   /// All candidates face nearly the same way (within 10 degrees): one patch, no clusters to look for.
   [[nodiscard]] bool nearly_flat() const noexcept { return nearly_flat_; }
   [[nodiscard]] Vec3 node_position(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
+  /// Local triangle t by itself.
+  [[nodiscard]] CandidateTriangle triangle_at(std::size_t t) const noexcept;
+  /// Longest edge when they were gathered, squared [m^2].
+  [[nodiscard]] double longest_edge2_at_gather() const noexcept { return longest_edge2_at_gather_; }
   [[nodiscard]] std::uint64_t gatherings() const noexcept { return gatherings_; }
   /// A number that no other gathering has, of this or another object.
   [[nodiscard]] std::uint64_t stamp() const noexcept { return stamp_; }
@@ -110,16 +134,16 @@ class MeshCandidates {
     return (n + kLanes - 1) / kLanes * kLanes;
   }
 
-  std::vector<Index> node;               ///< mesh vertex of each local node
-  std::span<double> x, y, z;             ///< node positions, padded [m]
-  std::span<double> node_area;           ///< third of the area of the triangles around, padded [m^2]
-  std::span<double> bx, by, bz;          ///< third of their area vectors, padded [m^2]
-  std::vector<std::int32_t> star_start;  ///< local triangles around node i: star[star_start[i]] … (CSR)
-  std::vector<std::int32_t> star;
+  core::SmallVector<Index> node;               ///< mesh vertex of each local node
+  std::span<double> x, y, z;                   ///< node positions, padded [m]
+  std::span<double> node_area;                 ///< third of the area of the triangles around, padded [m^2]
+  std::span<double> bx, by, bz;                ///< third of their area vectors, padded [m^2]
+  core::SmallVector<std::int32_t> star_start;  ///< local triangles around node i: star[star_start[i]] … (CSR)
+  core::SmallVector<std::int32_t> star;
   Vec3 mean_normal;                    ///< of all candidates, unit
   Vec3 mean_point;                     ///< of the nodes inside the ball when gathered, by overlap [m]
   double below_plane = 0.0;            ///< no node lies further below the plane through these two [m]
-  std::vector<Index> triangle;         ///< mesh triangle of each local triangle
+  core::SmallVector<Index> triangle;   ///< mesh triangle of each local triangle
   std::span<std::int32_t> v0, v1, v2;  ///< local nodes of each triangle, padded
   std::span<double> ax, ay, az;        ///< area vectors, padded [m^2]
   std::span<double> plane;             ///< area vector . vertex, padded [m^3]
@@ -142,18 +166,18 @@ class MeshCandidates {
 
   // Side by side, in the order of their use: there may be thousands of these objects, most of a few
   // triangles.
-  std::vector<double> of_nodes_, of_triangles_;
-  std::vector<std::int32_t> corners_;
+  core::SmallVector<double> of_nodes_, of_triangles_;
+  core::SmallVector<std::int32_t> corners_;
   bool gathered_ = false, nearly_flat_ = false;
   Vec3 built_at_, built_axis_;
   CandidateSkin built_skin_;
   double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
-  double odometer_ = 0.0;
+  double odometer_ = 0.0, longest_edge2_at_gather_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0, stamp_ = 0;
-  std::vector<Vec3> measured_;  // nodes' positions when the triangles were last measured
-  std::vector<Index> near_;     // scratch: triangles of the cells near the way
-  std::vector<double> across_;  // scratch: their distances from the way, or -1: out of reach
-  std::vector<double> around_;  // scratch: of measure_nodes
+  core::SmallVector<Vec3> measured_;  // nodes' positions when the triangles were last measured
+  std::vector<Index> near_;           // scratch: triangles of the cells near the way
+  std::vector<double> across_;        // scratch: their distances from the way, or -1: out of reach
+  std::vector<double> around_;        // scratch: of measure_nodes
 };
 
 }  // namespace abradem::contact

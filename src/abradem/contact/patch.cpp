@@ -48,6 +48,10 @@ double fineness(double a, double width) noexcept {
   return x * x * (3.0 - 2.0 * x);
 }
 
+double width_of(const CandidateTriangle& triangle) noexcept {
+  return 4.0 / std::numbers::sqrt3 * triangle.area / std::sqrt(triangle.longest);
+}
+
 double width_of(const MeshCandidates& candidates, std::size_t t) noexcept {
   return 4.0 / std::numbers::sqrt3 * candidates.area[t] / std::sqrt(candidates.longest[t]);
 }

@@ -110,6 +110,7 @@ class PatchEvaluator {
 [[nodiscard]] double fineness(double a, double width) noexcept;
 /// Edge of the equilateral triangle that has the least height of this one [m].
 [[nodiscard]] double width_of(const MeshCandidates& candidates, std::size_t t) noexcept;
+[[nodiscard]] double width_of(const CandidateTriangle& triangle) noexcept;
 
 /// The patch of an overlap with sum G_T n_T = G [m^3] and weighted overlap volume M [m^4]; without force
 /// where they do not make a contact.

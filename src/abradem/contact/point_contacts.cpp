@@ -7,8 +7,6 @@
 #include <limits>
 #include <tuple>
 
-#include "abradem/contact/triangle_links.h"
-
 namespace abradem::contact {
 
 namespace {
@@ -19,10 +17,10 @@ std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 int rank(Feature f) noexcept { return geometry::is_vertex(f) ? 2 : geometry::is_edge(f) ? 1 : 0; }
 
-/// Local vertices that a feature consists of: two of an edge, one of a vertex (twice); none of a face.
-std::array<std::int32_t, 2> feature_vertices(const MeshCandidates& m, const PointContact& p) noexcept {
-  const std::array<std::int32_t, 3> v{m.v0[at(p.triangle)], m.v1[at(p.triangle)], m.v2[at(p.triangle)]};
-  switch (p.feature) {
+/// Vertices that a feature consists of: two of an edge, one of a vertex (twice); none of a face.
+std::array<Index, 2> feature_vertices(const CandidateTriangle& triangle, Feature feature) noexcept {
+  const std::array<Index, 3>& v = triangle.vertex;
+  switch (feature) {
     case Feature::edge0:
       return {v[0], v[1]};
     case Feature::edge1:
@@ -41,10 +39,6 @@ std::array<std::int32_t, 2> feature_vertices(const MeshCandidates& m, const Poin
   return {-1, -1};
 }
 
-bool has_vertex(const MeshCandidates& m, std::int32_t t, std::int32_t v) noexcept {
-  return m.v0[at(t)] == v || m.v1[at(t)] == v || m.v2[at(t)] == v;
-}
-
 /// Faces first, then edges, then vertices; the deepest first; the candidates' order last, so that the result
 /// does not depend on anything else.
 bool stronger(const PointContact& a, const PointContact& b) noexcept {
@@ -54,44 +48,52 @@ bool stronger(const PointContact& a, const PointContact& b) noexcept {
 
 }  // namespace
 
-void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip,
-                                 bool sheet) {
+void PointContactFinder::begin(const Vec3& c, double R, double odometer) noexcept {
   Findings& f = found();
-  if (stamp_ != candidates.stamp() || radius_ != R) bound_.assign(candidates.triangle_count(), {});
-  stamp_ = candidates.stamp();
   radius_ = R;
   last_ = c;
-  odometer_ = candidates.odometer();
+  odometer_ = odometer;
   f.touched.clear();
-  excess_known_ = false;
-  const double rounding = 1e-14 * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + R);
-  for (std::size_t t = 0; t < candidates.triangle_count(); ++t) {
-    if (dot(bound_[t].away, c) - odometer_ > bound_[t].level) continue;
-    const auto closest = geometry::closest_point_on_triangle(
-        c, candidates.node_position(at(candidates.v0[t])), candidates.node_position(at(candidates.v1[t])),
-        candidates.node_position(at(candidates.v2[t])));
-    const Vec3 offset = c - closest.point;
-    const double distance = norm(offset);
-    if (distance >= R) {
-      const Vec3 away = offset / distance;
-      bound_[t] = {away, dot(away, c) - odometer_ - (distance - R) + rounding};
-    }
-    if (distance >= R || distance == 0.0) continue;
-    // A triangle seen from behind belongs to the far side of the solid.
-    if (!sheet &&
-        candidates.ax[t] * offset.x + candidates.ay[t] * offset.y + candidates.az[t] * offset.z < 0.0)
-      continue;
-    const auto local = static_cast<std::int32_t>(t);
-    const double overlap = tip.worn() ? tip.overlap(-offset, R) : R - distance;
-    const Vec3 n = tip.worn() ? tip.inward_normal(-offset) : offset / distance;
-    f.touched.push_back({closest.point, n, overlap, closest.feature, local, local});
-  }
+  f.triangles.clear();
   f.raw.clear();
-  if (tip.worn()) {
-    find_excess(candidates);
-    f.raw = f.excess;
-    f.correction.apply(candidates, c, R, tip, f.raw, f.excess);
+  excess_known_ = false;
+}
+
+/// Notes the triangle where the ball cuts it, or else how far it is out of reach.
+void PointContactFinder::meet(const CandidateTriangle& triangle, const Vec3& c, double R, const Tip& tip,
+                              bool sheet, OutOfReach& out) {
+  const auto closest =
+      geometry::closest_point_on_triangle(c, triangle.corner[0], triangle.corner[1], triangle.corner[2]);
+  const Vec3 offset = c - closest.point;
+  const double distance = norm(offset);
+  if (distance >= R) {
+    const Vec3 away = offset / distance;
+    const double rounding = 1e-14 * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + R);
+    out = {away, dot(away, c) - odometer_ - (distance - R) + rounding};
+    return;
   }
+  // A triangle seen from behind belongs to the far side of the solid.
+  if (distance == 0.0 || (!sheet && dot(triangle.normal, offset) < 0.0)) return;
+  const double overlap = tip.worn() ? tip.overlap(-offset, R) : R - distance;
+  const Vec3 n = tip.worn() ? tip.inward_normal(-offset) : offset / distance;
+  Findings& f = found();
+  f.touched.push_back(
+      {closest.point, n, overlap, closest.feature, triangle.local, triangle.local, f.touched.size()});
+  f.triangles.push_back(triangle);
+}
+
+void PointContactFinder::collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip,
+                                 bool sheet) {
+  if (stamp_ != candidates.stamp() || radius_ != R) out_.assign(candidates.triangle_count(), {});
+  stamp_ = candidates.stamp();
+  begin(c, R, candidates.odometer());
+  for (std::size_t t = 0; t < candidates.triangle_count(); ++t)
+    if (!out_[t].holds(c, odometer_)) meet(candidates.triangle_at(t), c, R, tip, sheet, out_[t]);
+  if (!tip.worn()) return;
+  Findings& f = found();
+  find_excess(candidates);
+  f.raw = f.excess;
+  f.correction.apply(candidates, c, R, tip, f.raw, f.excess);
 }
 
 void PointContactFinder::find_excess(const MeshCandidates& candidates) {
@@ -108,21 +110,58 @@ std::span<const double> PointContactFinder::node_excess(const MeshCandidates& ca
   return found().excess;
 }
 
-FreeWay PointContactFinder::free_way(double most) const noexcept {
+bool PointContactFinder::touched(std::size_t t) const noexcept {
+  return std::ranges::any_of(found().touched, [&](const PointContact& p) { return at(p.triangle) == t; });
+}
+
+FreeWay PointContactFinder::free_way(double most) const noexcept { return way_past(most, {}); }
+
+/// Past all triangles but those touched, and these.
+FreeWay PointContactFinder::way_past(double most, std::span<const std::int32_t> these) const noexcept {
   FreeWay way{.from = last_, .wear = odometer_, .any = most};
   way.gap.fill(std::numeric_limits<double>::infinity());
-  const auto touched = [&](std::size_t t) {
-    return std::ranges::any_of(found().touched, [&](const PointContact& p) { return at(p.triangle) == t; });
-  };
-  for (std::size_t t = 0; t < bound_.size(); ++t) {
-    double gap = dot(bound_[t].away, last_) - odometer_ - bound_[t].level;
-    if (gap >= way.any || touched(t)) continue;
-    Vec3 away = bound_[t].away;
+  for (std::size_t t = 0; t < out_.size(); ++t) {
+    double gap = dot(out_[t].away, last_) - odometer_ - out_[t].level;
+    if (gap >= way.any || touched(t) || std::ranges::find(these, static_cast<std::int32_t>(t)) != these.end())
+      continue;
+    Vec3 away = out_[t].away;
     for (std::size_t k = 0; k < FreeWay::kNearest; ++k)
       if (gap < way.gap[k]) std::swap(gap, way.gap[k]), std::swap(away, way.away[k]);
     way.any = std::min(way.any, gap);
   }
   return way;
+}
+
+bool PointContactFinder::note(const MeshCandidates& candidates, double most, FewTriangles& few) const {
+  const std::vector<PointContact>& cut = found().touched;
+  if (cut.size() > FewTriangles::kMost) return false;
+  struct Near {
+    std::int32_t triangle = 0;
+    double gap = -std::numeric_limits<double>::infinity();
+  };
+  std::array<Near, FewTriangles::kMost> near;
+  std::size_t count = 0;
+  for (const PointContact& p : cut) near[count++].triangle = p.triangle;
+  for (std::size_t t = 0; t < out_.size(); ++t) {
+    const double gap = dot(out_[t].away, last_) - odometer_ - out_[t].level;
+    if (gap >= most || touched(t)) continue;
+    std::size_t k = count < near.size() ? count++ : near.size();
+    for (; k > 0 && gap < near[k - 1].gap; --k)
+      if (k < near.size()) near[k] = near[k - 1];
+    if (k < near.size()) near[k] = {static_cast<std::int32_t>(t), gap};
+  }
+  std::array<std::int32_t, FewTriangles::kMost> these{};
+  few.count = count;
+  for (std::size_t k = 0; k < count; ++k) {
+    these[k] = near[k].triangle;
+    few.triangle[k] = candidates.triangle_at(at(these[k]));
+    few.out[k] = out_[at(these[k])];
+    few.order[k] = static_cast<std::uint8_t>(k);
+  }
+  few.way = way_past(most, std::span(these).first(count));
+  std::sort(few.order.begin(), few.order.begin() + static_cast<std::ptrdiff_t>(count),
+            [&](std::uint8_t a, std::uint8_t b) { return these[a] < these[b]; });
+  return true;
 }
 
 std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandidates& candidates,
@@ -132,17 +171,16 @@ std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandida
   std::sort(f.touched.begin(), f.touched.end(), stronger);
   f.accepted.clear();
   for (const PointContact& p : f.touched) {
-    const auto [a, b] = feature_vertices(candidates, p);
+    const auto [a, b] = feature_vertices(f.triangles[p.place], p.feature);
     // Owned by a stronger contact that touches the same feature: a face around it, an edge that ends in it,
     // or itself once more. (Not by an edge opposite to it: which of two triangles stands for an edge is
     // arbitrary.)
-    const bool owned =
-        a >= 0 && std::ranges::any_of(f.accepted, [&, a = a, b = b](const PointContact& q) {
-          if (q.feature == Feature::face)
-            return has_vertex(candidates, q.triangle, a) && has_vertex(candidates, q.triangle, b);
-          const auto [qa, qb] = feature_vertices(candidates, q);
-          return (qa == a || qb == a) && (qa == b || qb == b);
-        });
+    const bool owned = a >= 0 && std::ranges::any_of(f.accepted, [&, a = a, b = b](const PointContact& q) {
+                         const CandidateTriangle& triangle = f.triangles[q.place];
+                         if (q.feature == Feature::face) return triangle.has(a) && triangle.has(b);
+                         const auto [qa, qb] = feature_vertices(triangle, q.feature);
+                         return (qa == a || qb == a) && (qa == b || qb == b);
+                       });
     if (!owned && p.overlap > 0.0) f.accepted.push_back(p);
   }
   return f.accepted;
@@ -150,14 +188,25 @@ std::span<const PointContact> PointContactFinder::per_triangle(const MeshCandida
 
 std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates& candidates, const Vec3& c,
                                                            double R, const Tip& tip, bool sheet) {
-  Findings& f = found();
   collect(candidates, c, R, tip, sheet);
-  find_flat_sets(candidates);
-  // Each set's deepest point, strongest sets first.
+  return deepest_of_sets();
+}
+
+std::span<const PointContact> PointContactFinder::resolved(FewTriangles& few, const Vec3& c, double R,
+                                                           double odometer, bool sheet) {
+  begin(c, R, odometer);
+  for (const std::size_t k : std::span(few.order).first(few.count))
+    if (!few.out[k].holds(c, odometer)) meet(few.triangle[k], c, R, {}, sheet, few.out[k]);
+  return deepest_of_sets();
+}
+
+/// Each set's deepest point, strongest sets first.
+std::span<const PointContact> PointContactFinder::deepest_of_sets() {
+  Findings& f = found();
+  find_flat_sets();
   std::vector<PointContact>& best = f.best;
   best.clear();
-  for (PointContact& p : f.touched) {
-    p.set = f.set[at(p.triangle)];
+  for (const PointContact& p : f.touched) {
     const auto same = std::ranges::find(best, p.set, &PointContact::set);
     if (same == best.end())
       best.push_back(p);
@@ -168,11 +217,10 @@ std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates&
   f.accepted.clear();
   for (const PointContact& p : best) {
     if (!(p.overlap > 0.0)) continue;
-    const auto [a, b] = feature_vertices(candidates, p);
+    const auto [a, b] = feature_vertices(f.triangles[p.place], p.feature);
     const auto set_holds_feature = [&, a = a, b = b](const PointContact& q) {
       return std::ranges::any_of(f.touched, [&](const PointContact& t) {
-        return t.set == q.set && has_vertex(candidates, t.triangle, a) &&
-               has_vertex(candidates, t.triangle, b);
+        return t.set == q.set && f.triangles[t.place].has(a) && f.triangles[t.place].has(b);
       });
     };
     if (a < 0 || std::ranges::none_of(f.accepted, set_holds_feature)) f.accepted.push_back(p);
@@ -180,26 +228,37 @@ std::span<const PointContact> PointContactFinder::resolved(const MeshCandidates&
   return f.accepted;
 }
 
-void PointContactFinder::find_flat_sets(const MeshCandidates& candidates) {
+/// A set is named by the first of its triangles.
+void PointContactFinder::find_flat_sets() {
   Findings& f = found();
   constexpr double kCosFlat = 0.99619469809174555;  // 5 degrees
-  f.set.assign(candidates.triangle_count(), -1);
-  for (const PointContact& p : f.touched) f.set[at(p.triangle)] = p.triangle;
   if (f.touched.size() < 2) return;
-  TriangleLinks links(candidates.triangle_count());
-  for (std::size_t i = 0; i < f.touched.size(); ++i)
-    for (std::size_t j = i + 1; j < f.touched.size(); ++j) {
-      const auto s = f.touched[i].triangle, t = f.touched[j].triangle;
-      const int shared = has_vertex(candidates, s, candidates.v0[at(t)]) +
-                         has_vertex(candidates, s, candidates.v1[at(t)]) +
-                         has_vertex(candidates, s, candidates.v2[at(t)]);
-      const double cosine =
-          (candidates.ax[at(s)] * candidates.ax[at(t)] + candidates.ay[at(s)] * candidates.ay[at(t)] +
-           candidates.az[at(s)] * candidates.az[at(t)]) /
-          (candidates.area[at(s)] * candidates.area[at(t)]);
-      if (shared >= 1 && cosine >= kCosFlat) links.join(s, t);
+  f.links.reset(f.touched.size());
+  for (std::size_t i = 0; i < f.triangles.size(); ++i)
+    for (std::size_t j = i + 1; j < f.triangles.size(); ++j) {
+      const CandidateTriangle &s = f.triangles[i], &t = f.triangles[j];
+      const bool meet = std::ranges::any_of(t.vertex, [&](Index v) { return s.has(v); });
+      if (meet && dot(s.normal, t.normal) / (s.area * t.area) >= kCosFlat)
+        f.links.join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
     }
-  for (const PointContact& p : f.touched) f.set[at(p.triangle)] = links.root(p.triangle);
+  for (PointContact& p : f.touched)
+    p.set = f.touched[at(f.links.root(static_cast<std::int32_t>(p.place)))].triangle;
+}
+
+std::span<const int> PointContactFinder::sets(const MeshCandidates& candidates) {
+  Findings& f = found();
+  f.set.assign(candidates.triangle_count(), -1);
+  for (const PointContact& p : f.touched) f.set[at(p.triangle)] = p.set;
+  return f.set;
+}
+
+std::span<const CandidateTriangle> PointContactFinder::triangles_of(int set) {
+  Findings& f = found();
+  if (std::ranges::all_of(f.touched, [&](const PointContact& p) { return p.set == set; })) return f.triangles;
+  f.of_set.clear();
+  for (const PointContact& p : f.touched)
+    if (p.set == set) f.of_set.push_back(f.triangles[p.place]);
+  return f.of_set;
 }
 
 }  // namespace abradem::contact

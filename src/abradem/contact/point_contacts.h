@@ -9,6 +9,7 @@
 
 #include "abradem/contact/mesh_candidates.h"
 #include "abradem/contact/tip_shape.h"
+#include "abradem/contact/triangle_links.h"
 #include "abradem/geometry/closest_point.h"
 
 namespace abradem::contact {
@@ -21,6 +22,16 @@ struct PointContact {
   geometry::Feature feature = geometry::Feature::face;
   std::int32_t triangle = 0;  ///< local, in the candidates
   int set = 0;                ///< `resolved`: its connected flat set; otherwise its own number
+  std::size_t place = 0;      ///< among those touched
+};
+
+/// A triangle out of a ball's reach stays there while away . c - odometer > level, c the ball's centre.
+struct OutOfReach {
+  Vec3 away;
+  double level = std::numeric_limits<double>::infinity();  ///< [m]
+  [[nodiscard]] bool holds(const Vec3& c, double odometer) const noexcept {
+    return dot(away, c) - odometer > level;
+  }
 };
 
 /// Where a sphere may go from a place before it can touch more than it does there.
@@ -48,6 +59,25 @@ struct FreeWay {
   [[nodiscard]] double least() const noexcept { return std::min(any, *std::ranges::min_element(gap)); }
 };
 
+/// The few triangles that a ball can meet on some way, of many contacts with meshes all that a step reads of
+/// them: as long as the way holds, what is found among them is what is found among all candidates, to the
+/// bit.
+struct FewTriangles {
+  static constexpr std::size_t kMost = 8;
+  FreeWay way;  ///< past all others
+  std::size_t count = 0;
+  std::array<std::uint8_t, kMost> order{};  ///< in that of the candidates
+  std::array<OutOfReach, kMost> out{};
+  std::array<CandidateTriangle, kMost> triangle{};  ///< what is touched in front
+
+  /// Asks the memory for what the next search reads, but for triangles that most often are out of reach.
+  void fetch() const noexcept {
+    const auto* from = reinterpret_cast<const char*>(this);
+    const auto* end = reinterpret_cast<const char*>(&triangle[2]);
+    for (const auto* line = from; line < end; line += 64) __builtin_prefetch(line);
+  }
+};
+
 /// The point-contact rules: what the sphere's ball touches, each feature once, face before edge before
 /// vertex. docs/theory/contact-walls.md#point-contacts
 class PointContactFinder {
@@ -55,9 +85,12 @@ class PointContactFinder {
   /// What a call finds. Many finders that are used one after another may share it (lend), where nobody asks
   /// for it later: then it stays in the fast memory.
   struct Findings {
-    std::vector<PointContact> touched;  // nearest point of every triangle that the ball cuts
+    std::vector<PointContact> touched;         // nearest point of every triangle that the ball cuts
+    std::vector<CandidateTriangle> triangles;  // these
     std::vector<PointContact> accepted, best;
+    std::vector<CandidateTriangle> of_set;
     std::vector<int> set;
+    TriangleLinks links;
     std::vector<double> excess, raw;
     TipCorrection correction;
   };
@@ -78,6 +111,13 @@ class PointContactFinder {
   /// @param sheet the surface is a thin sheet: triangles are touched from behind, too
   std::span<const PointContact> resolved(const MeshCandidates& candidates, const Vec3& c, double R,
                                          const Tip& tip = {}, bool sheet = false);
+  /// The same among a few of the candidates, of a sphere as new.
+  /// @param odometer of the surface whose triangles these are
+  std::span<const PointContact> resolved(FewTriangles& few, const Vec3& c, double R, double odometer,
+                                         bool sheet = false);
+  /// Notes the triangles that the last call found in the ball, and those that it will reach first.
+  /// @param most how far the candidates reach [m]   @return whether there are few enough
+  [[nodiscard]] bool note(const MeshCandidates& candidates, double most, FewTriangles& few) const;
 
   /// 1 - |x - c|^2 / R^2 of each candidate node at the last call, padded; > 0 inside. With a worn tip: the
   /// excess that has the overlap with it.   @param candidates those of that call
@@ -87,29 +127,35 @@ class PointContactFinder {
 
   /// Every triangle that the ball cut in the last call, each by its nearest point.
   [[nodiscard]] std::span<const PointContact> touched() const noexcept { return found().touched; }
+  /// Triangles that it cut: all, or with `resolved` those of a set.
+  [[nodiscard]] std::span<const CandidateTriangle> touched_triangles() const noexcept {
+    return found().triangles;
+  }
+  [[nodiscard]] std::span<const CandidateTriangle> triangles_of(int set);
   /// From the place of the last call, and within `most`, until the ball reaches a triangle that it did not
   /// touch there.
   [[nodiscard]] FreeWay free_way(double most) const noexcept;
 
   /// `resolved`: set of each candidate triangle, or -1 where it is not overlapped.
-  [[nodiscard]] std::span<const int> sets() const noexcept { return found().set; }
+  [[nodiscard]] std::span<const int> sets(const MeshCandidates& candidates);
 
   /// Asks the memory for what the next call reads.
-  void fetch() const noexcept { __builtin_prefetch(bound_.data()); }
+  void fetch() const noexcept { __builtin_prefetch(out_.data()); }
 
  private:
   void collect(const MeshCandidates& candidates, const Vec3& c, double R, const Tip& tip, bool sheet);
+  void begin(const Vec3& c, double R, double odometer) noexcept;
+  void meet(const CandidateTriangle& triangle, const Vec3& c, double R, const Tip& tip, bool sheet,
+            OutOfReach& out);
+  [[nodiscard]] std::span<const PointContact> deepest_of_sets();
   void find_excess(const MeshCandidates& candidates);
-  void find_flat_sets(const MeshCandidates& candidates);
+  void find_flat_sets();
+  [[nodiscard]] FreeWay way_past(double most, std::span<const std::int32_t> these) const noexcept;
+  [[nodiscard]] bool touched(std::size_t t) const noexcept;
   [[nodiscard]] Findings& found() noexcept { return lent_ != nullptr ? *lent_ : own_; }
   [[nodiscard]] const Findings& found() const noexcept { return lent_ != nullptr ? *lent_ : own_; }
 
-  /// A triangle out of reach stays there while away . x - odometer > level.
-  struct Bound {
-    Vec3 away;
-    double level = std::numeric_limits<double>::infinity();  // [m]
-  };
-  std::vector<Bound> bound_;
+  core::SmallVector<OutOfReach> out_;  // of each candidate
   double odometer_ = 0.0, radius_ = 0.0;
   Vec3 last_;
   std::uint64_t stamp_ = 0;  // of the candidates that these are of

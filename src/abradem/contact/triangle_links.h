@@ -11,7 +11,12 @@ namespace abradem::contact {
 /// on the order of joining.
 class TriangleLinks {
  public:
-  explicit TriangleLinks(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit TriangleLinks(std::size_t count = 0) { reset(count); }
+  /// Each by itself.
+  void reset(std::size_t count) {
+    parent_.resize(count);
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
 
   [[nodiscard]] std::int32_t root(std::int32_t i) noexcept {
     while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];

@@ -108,7 +108,15 @@ void BulkWalls::list_meshes(const contact::Spheres& spheres, const Surroundings&
   for (const contact::SphereRow& s : spheres.row) largest = std::max(largest, s.radius);
   constexpr std::size_t kBlock = contact::SphereList::kBlock;
   const std::size_t blocks = (spheres.size() + kBlock - 1) / kBlock;
-  std::vector<std::vector<NearMesh>> found(blocks);
+  std::vector<NearMesh> before = std::move(meshes_);
+  meshes_.clear();
+  const auto key = [](const NearMesh& m) { return std::tuple(m.id, m.wall); };
+  std::ranges::sort(before, {}, key);
+  struct Found {
+    NearMesh near;
+    NearMesh* before = nullptr;
+  };
+  std::vector<std::vector<Found>> found(blocks);
   for (std::size_t w = 0; w < around.walls.size(); ++w)
     if (!around.walls[w].is_plane() && largest > 0.0)
       grids_[w].update(around.walls[w].view(), largest + skin);
@@ -120,30 +128,28 @@ void BulkWalls::list_meshes(const contact::Spheres& spheres, const Surroundings&
         if (around.walls[w].is_plane() || !around.walls[w].present(around.time)) continue;
         const Vec3 c = around.poses[w].to_body(s.position());
         if (!grids_[w].may_be_near(c)) continue;
-        const auto distance = distance_within(around.walls[w].view(), c, s.radius + skin);
-        if (!distance) continue;
         NearMesh near;
         near.sphere = static_cast<std::int32_t>(i);
         near.id = spheres.id[i];
         near.wall = static_cast<std::int32_t>(w);
-        near.clear = *distance - s.radius;
-        found[b].push_back(std::move(near));
+        const auto old = std::ranges::lower_bound(before, key(near), {}, key);
+        const bool known = old != before.end() && key(*old) == key(near);
+        if (!known || old->contact->touches().empty()) {  // those that touch are near
+          const auto distance = distance_within(around.walls[w].view(), c, s.radius + skin);
+          if (!distance) continue;
+          near.clear = *distance - s.radius;
+        }
+        found[b].push_back({std::move(near), known ? &*old : nullptr});
       }
     }
   });
 
-  std::vector<NearMesh> before = std::move(meshes_);
-  meshes_.clear();
-  const auto key = [](const NearMesh& m) { return std::tuple(m.id, m.wall); };
-  std::ranges::sort(before, {}, key);
-  for (std::vector<NearMesh>& block : found)
-    for (NearMesh& near : block) {
-      const auto old = std::ranges::lower_bound(before, key(near), {}, key);
-      if (old != before.end() && key(*old) == key(near) && old->contact) {
+  for (std::vector<Found>& block : found)
+    for (auto& [near, old] : block) {
+      if (old != nullptr) {
         near.contact = std::move(old->contact);
         near.expected = old->expected;
         near.load = old->load;
-        if (!near.contact->touches().empty()) near.clear = 0.0;
       } else {
         near.contact = std::make_unique<SphereWall>();
       }

@@ -265,7 +265,6 @@ class Simulation {
   [[nodiscard]] bool wears_by_speed(const Wall& wall) const noexcept;
   void book_bulk_wear();
   void fetch_elements(const WearRecords& records);
-  void fetch_vertices(const WearRecords& records);
   double book_contact(SphereWall& contact, const WearRecords& records, const WearRecords::Record& record);
   void find_uses_of_wear();
   void book_elements();

@@ -29,8 +29,8 @@ void weigh(contact::ContactForce& force, double weight) noexcept {
 void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
                          const contact::PairProperties& pair, double load, double dt) {
   if (wall.is_plane()) return;
-  on_face_ = stays_on_face(wall, c, load) && touch_face(wall, c, R, pair);
-  if (on_face_) return;
+  is_near_ = stays_near(wall, c, load) && touch_near(wall, c, R, pair);
+  if (is_near_) return;
   // The Hertz footprint reaches down to half its approach below the deepest point, which in a conforming
   // groove lies outside the ball.
   const double approach = contact::hertz_overlap(pair, R, load);
@@ -54,65 +54,51 @@ void SphereWall::prepare(Wall& wall, const Vec3& c, const Vec3& v, double R,
   if (stale_) book_elements(wall);
 }
 
-std::array<Vec3, 3> SphereWall::corners_of(std::size_t t) const noexcept {
-  return {candidates_.node_position(at(candidates_.v0[t])), candidates_.node_position(at(candidates_.v1[t])),
-          candidates_.node_position(at(candidates_.v2[t]))};
-}
-
-/// @return whether the ball still touches the face
-bool SphereWall::touch_face(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
-  const auto closest =
-      geometry::closest_point_on_triangle(c, face_.corner[0], face_.corner[1], face_.corner[2]);
-  const Vec3 offset = c - closest.point;
-  const double distance = norm(offset);
-  if (distance >= R || distance == 0.0 || dot(face_.normal, offset) < 0.0) return false;
-  const double overlap = R - distance;
-  if (wall.setup().contact == ContactRule::automatic &&
-      contact::fineness(contact::contact_radius(R, overlap), face_.width) == 1.0)
-    return false;  // a patch stands for it
-  const contact::PointContact point{closest.point,   offset / distance, overlap,
-                                    closest.feature, face_.local,       face_.local};
+/// @return whether there still is a contact, and points stand for it
+bool SphereWall::touch_near(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
+  if (const std::uint64_t revision = wall.surface().revision(); near_->revision != revision) {
+    add_centroid_motion(wall);
+    for (std::size_t k = 0; k < near_->few.count; ++k) near_->few.triangle[k].follow(wall.surface().mesh());
+    near_->revision = revision;
+  }
+  const std::span<const contact::PointContact> points =
+      points_.resolved(near_->few, c, R, wall.surface().odometer(), wall.setup().sides == Sides::both);
+  if (points.empty()) return false;
+  if (wall.setup().contact == ContactRule::automatic && !suit_points(points, R)) return false;
   touches_.clear();
-  touch_points(wall, R, pair, {&point, 1});
+  touch_points(wall, R, pair, points);
   noted_at_ = c;  // as a search would have it
   return true;
 }
 
-/// After a search: does its result hold for some way? Only where nobody but `land` asks for what the
-/// search leaves behind, and never on a sheet, whose faces have two sides.
-void SphereWall::note_face(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
-  face_.triangle = -1;
+/// After a search: does its result hold for some way? Only where nobody but `land` asks for what the search
+/// leaves behind.
+void SphereWall::note_near(const Wall& wall, double R, const contact::PairProperties& pair) {
+  if (near_) near_->holds = false;
   const ContactRule rule = wall.setup().contact;
   const bool points = rule == ContactRule::resolved || rule == ContactRule::automatic;
-  if (!points || scratch_ == nullptr || tip_.worn() || wall.setup().sides == Sides::both ||
-      pair.options.adhesion > 0.0 || touches_.size() != 1 || !touches_.front().of_point ||
-      touches_.front().weight != 1.0 || points_.touched().size() != 1 || owes_elements())
+  if (!points || scratch_ == nullptr || tip_.worn() || pair.options.adhesion > 0.0 || touches_.empty() ||
+      owes_elements() ||
+      std::ranges::any_of(touches_, [](const Touch& t) { return !t.of_point || t.weight != 1.0; }))
     return;
-  const contact::FreeWay way = points_.free_way(candidates_.skin_left(c));
-  if (!(way.least() > 0.0)) return;
-  const std::size_t t = at(touches_.front().nearest);
-  face_.triangle = candidates_.triangle[t];
-  face_.local = static_cast<std::int32_t>(t);
-  face_.revision = wall.view().revision;
-  face_.way = way;
-  face_.load = 0.999 * contact::hertz_force(pair, R, 2.0 * (candidates_.built_reach() - R));
-  face_.width = contact::width_of(candidates_, t);
-  face_.corner = corners_of(t);
-  face_.normal = {candidates_.ax[t], candidates_.ay[t], candidates_.az[t]};
-  face_.area = candidates_.area[t];
+  if (!near_) near_ = std::make_unique<Near>();
+  if (!points_.note(candidates_, candidates_.skin_left(centre_), near_->few)) return;
+  near_->holds = near_->few.way.least() > 0.0;
+  near_->revision = wall.view().revision;
+  near_->load = 0.999 * contact::hertz_force(pair, R, 2.0 * (candidates_.built_reach() - R));
 }
 
 /// Points need few triangles, and where these are coarse a wide margin hardly adds to them: within it, the
 /// ball does not grow by more than half of one.
 contact::CandidateSkin SphereWall::skin_of_points(double R) const noexcept {
-  const double edge2 = candidates_.longest_edge2;
+  const double edge2 = candidates_.longest_edge2_at_gather();
   return {std::clamp(0.25 * std::sqrt(edge2), 0.01 * R, 0.1 * R),
           std::clamp(0.125 * edge2 / R, 0.001 * R, 0.02 * R)};
 }
 
 void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair) {
   centre_ = c;
-  if (on_face_) {
+  if (is_near_) {
     axis_ = -touches_.front().n;
     return;
   }
@@ -145,7 +131,7 @@ void SphereWall::find(const Wall& wall, const Vec3& c, double R, const contact::
       break;
   }
   if (!touches_.empty()) axis_ = -touches_.front().n;
-  note_face(wall, c, R, pair);
+  note_near(wall, R, pair);
 }
 
 contact::FreeWay SphereWall::free_way(const Wall& wall) const noexcept {
@@ -218,7 +204,8 @@ void SphereWall::touch_either(const Wall& wall, const Vec3& c, double R, const c
   touch_points(wall, R, pair, points);
   for (std::size_t k = patches; k < touches_.size(); ++k) {
     Touch& t = touches_[k];
-    double fine = patches == 0 ? 0.0 : patches_.fineness_of(candidates_, points_.sets(), t.part, t.a);
+    double fine =
+        patches == 0 ? 0.0 : patches_.fineness_of(candidates_, points_.sets(candidates_), t.part, t.a);
     if (fine < 0.0) fine = contact::fineness(t.a, contact::width_of(candidates_, at(t.nearest)));
     t.weight = 1.0 - fine;
   }
@@ -234,17 +221,14 @@ bool SphereWall::suit_points(std::span<const contact::PointContact> points, doub
   double deepest = 0.0;
   for (const contact::PointContact& p : points) deepest = std::max(deepest, p.overlap);
   const double a = contact::contact_radius(R, deepest);
-  const contact::MeshCandidates& m = candidates_;
-  const auto normal = [&m](std::size_t t) { return Vec3{m.ax[t], m.ay[t], m.az[t]}; };
-  const auto first = at(points.front().triangle);
+  const std::span<const contact::CandidateTriangle> touched = points_.touched_triangles();
+  const contact::CandidateTriangle& first = touched[points.front().place];
   bool coarse = true, fine = true, plane = points.size() == 1;
-  for (const contact::PointContact& p : points_.touched()) {
-    const std::size_t t = at(p.triangle);
-    const double share = contact::fineness(a, contact::width_of(m, t));
+  for (const contact::CandidateTriangle& t : touched) {
+    const double share = contact::fineness(a, contact::width_of(t));
     coarse = coarse && share == 0.0;
     fine = fine && share == 1.0;
-    plane =
-        plane && norm2(cross(normal(t), normal(first))) <= kPlane2 * norm2(normal(t)) * norm2(normal(first));
+    plane = plane && norm2(cross(t.normal, first.normal)) <= kPlane2 * norm2(t.normal) * norm2(first.normal);
   }
   return coarse || (plane && !fine);
 }
@@ -289,7 +273,7 @@ SphereWall::Memory& SphereWall::recall(const Touch& touch, ContactRule rule) {
                                                            : -norm2(m.point - touch.point);
     if (score > best_score) best = &m, best_score = score;
   }
-  Memory& memory = kept_.emplace_back();
+  Memory& memory = scratch().kept.emplace_back();
   memory.n = touch.n;
   memory.point = touch.point;
   memory.key = touch.key;
@@ -322,7 +306,7 @@ void SphereWall::watch_impact(Memory& memory, const Touch& touch, const Vec3& v)
   if (!memory.striking) return;
   memory.approaching = false;
   if (touch.weight == 1.0) return;
-  for (auto* memories : {&memory_, &kept_})
+  for (auto* memories : {&memory_, &scratch().kept})
     for (Memory& m : *memories)
       if (dot(m.n, touch.n) > 0.9) m.approaching = false;
 }
@@ -387,8 +371,9 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
                                    const contact::PairProperties& pair, double dt) {
   ForceAndTorque total;
   rolling_ = {};
-  kept_.clear();
-  kept_.reserve(touches_.size());  // recall hands out references
+  core::SmallVector<Memory>& kept = scratch().kept;
+  kept.clear();
+  kept.reserve(touches_.size());  // recall hands out references
   for (Touch& touch : touches_) {
     const Vec3 n = pose.turn(touch.n);
     const Vec3 arm = -sphere.radius * n;
@@ -397,13 +382,13 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
                                 pose.turn_back(v)};
     if (wall.is_belt()) state.v -= wall.belt_velocity(touch.n);
     Memory& memory = recall(touch, wall.setup().contact);
-    touch.memory = static_cast<int>(kept_.size()) - 1;
+    touch.memory = static_cast<int>(kept.size()) - 1;
     if (wall.watches_impacts()) watch_impact(memory, touch, state.v);
     if (pair.options.any()) {
       Vec3 torque;
       const Vec3 spin = pose.turn_back(sphere.spin - pose.spin);
       if (!compute_with_options(touch, state.v, sphere, spin, pair, dt, memory.history, torque)) {
-        kept_.pop_back();
+        kept.pop_back();
         touch.memory = -1;
         continue;
       }
@@ -425,7 +410,7 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
     total.torque += cross(arm, tangential) + rolling;
     rolling_ += rolling;
   }
-  memory_.swap(kept_);
+  memory_.assign(kept.begin(), kept.end());
   return total;
 }
 
@@ -491,6 +476,11 @@ void SphereWall::add_centroid_motion(const Wall& wall) {
     noted_[i] = wall.surface().mesh().vertices[at(candidates_.node[i])];
 }
 
+double SphereWall::area_when_noted(std::size_t t) const noexcept {
+  const Vec3& a = noted_[at(candidates_.v0[t])];
+  return 0.5 * norm(cross(noted_[at(candidates_.v1[t])] - a, noted_[at(candidates_.v2[t])] - a));
+}
+
 double SphereWall::unnoted_centroid_volume(const Wall& wall) {
   if (wall.setup().deformation != DeformationRule::conserving) return 0.0;
   if (noted_revision_ == wall.view().revision) return 0.0;  // nothing has moved since
@@ -512,7 +502,7 @@ double SphereWall::unnoted_centroid_volume(const Wall& wall) {
     Vec3 sum;
     for (const std::int32_t v : {candidates_.v0[t], candidates_.v1[t], candidates_.v2[t]})
       sum += Vec3{motion_[at(v)][0], motion_[at(v)][1], motion_[at(v)][2]};
-    volume += norm(sum) * candidates_.area[t] / 3.0;
+    volume += norm(sum) * area_when_noted(t) / 3.0;
   }
   return volume;
 }

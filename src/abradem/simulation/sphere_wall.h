@@ -45,6 +45,7 @@ struct MapLayer {
 /// What falls on one triangle of a contact's wear, as parts of the whole: in all, and at its corners.
 struct WearShare {
   geometry::Index triangle = 0;
+  geometry::Triangle vertex{};
   double whole = 0.0, at0 = 0.0, at1 = 0.0, at2 = 0.0;
   double area = 0.0;  ///< of the triangle [m^2]
 };
@@ -80,7 +81,7 @@ struct NormalParts {
 
 /// Everything between one sphere and one wall: what it touches, what each contact remembers, the force, and
 /// the wear it leaves. The step calls find, then compute, then deposit.
-class SphereWall {
+class SphereWall : public core::InSmallBlocks {
  public:
   /// One contact, in the wall's frame.
   struct Touch {
@@ -108,6 +109,28 @@ class SphereWall {
     }
   };
 
+ private:
+  struct Memory {
+    Vec3 n, point;
+    int key = -1;
+    contact::TangentialHistory history;
+    bool used = false;
+    bool of_point = false;
+    // Where the wall wears by impacts: how this one began, until the sphere no longer comes closer.
+    double speed = 0.0, angle = 0.0;  // [m/s], from the surface [rad]
+    bool approaching = false;
+    bool striking = false;  // it has just ceased to
+    bool fresh = false;     // it begins in this step
+
+    template <typename Self, typename Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive("n", self.n)("point", self.point)("key", self.key)("history", self.history);
+      archive("speed", self.speed)("angle", self.angle)("approaching", self.approaching);
+      archive("of_point", self.of_point);
+    }
+  };
+
+ public:
   /// What one step needs and nobody asks for afterwards. Objects that are used one after another may share
   /// one (lend): then it stays in the fast memory, and there may be thousands of them.
   struct Scratch {
@@ -115,6 +138,7 @@ class SphereWall {
     wear::FootprintIntegrator footprint;
     std::vector<WearShare> shares;  // of the last landing
     std::vector<char> mask;
+    core::SmallVector<Memory> kept;  // what the contacts of this step go on with
   };
   /// Null: it has its own. What ploughs must not share.
   void lend(Scratch* scratch) noexcept {
@@ -130,7 +154,9 @@ class SphereWall {
       __builtin_prefetch(line);
   }
   void fetch_arrays() const noexcept {
-    if (face_.triangle < 0) {
+    if (near_) {
+      near_->few.fetch();
+    } else {
       candidates_.fetch();
       points_.fetch();
     }
@@ -141,8 +167,6 @@ class SphereWall {
     };
     ask(touches_);
     ask(memory_);
-    if (const auto* next = reinterpret_cast<const char*>(kept_.data()); next != nullptr)
-      for (std::size_t byte = 0; byte < sizeof(Memory); byte += 64) __builtin_prefetch(next + byte, 1);
   }
 
   /// First part of the search: settles what the last candidates still owe the wall. Where they owe it
@@ -155,8 +179,8 @@ class SphereWall {
   /// run at once.
   void find(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
 
-  /// Was the contact of this step known to be on the triangle of the step before, without a search?
-  [[nodiscard]] bool on_face() const noexcept { return on_face_; }
+  /// Were the contacts of this step found among few triangles, without a search?
+  [[nodiscard]] bool is_near() const noexcept { return is_near_; }
   /// After a find without contacts: where the sphere may go before there can be one.
   [[nodiscard]] contact::FreeWay free_way(const Wall& wall) const noexcept;
 
@@ -226,8 +250,8 @@ class SphereWall {
   [[nodiscard]] ForceAndTorque load(const geometry::Pose& pose, double R) const noexcept;
   /// The sphere's centre at the last search, in the wall's frame.
   [[nodiscard]] const Vec3& centre() const noexcept { return centre_; }
-  [[nodiscard]] const std::vector<Touch>& touches() const noexcept { return touches_; }
-  [[nodiscard]] std::vector<Touch>& touches() noexcept { return touches_; }
+  [[nodiscard]] const core::SmallVector<Touch>& touches() const noexcept { return touches_; }
+  [[nodiscard]] core::SmallVector<Touch>& touches() noexcept { return touches_; }
   [[nodiscard]] const contact::MeshCandidates& candidates() const noexcept { return candidates_; }
   /// Elements in contact: under `patch` those with a corner in the ball, else the contacts.
   [[nodiscard]] int elements(const Wall& wall) const;
@@ -270,25 +294,6 @@ class SphereWall {
   [[nodiscard]] bool restore(const Wall& wall);
 
  private:
-  struct Memory {
-    Vec3 n, point;
-    int key = -1;
-    contact::TangentialHistory history;
-    bool used = false;
-    bool of_point = false;
-    // Where the wall wears by impacts: how this one began, until the sphere no longer comes closer.
-    double speed = 0.0, angle = 0.0;  // [m/s], from the surface [rad]
-    bool approaching = false;
-    bool striking = false;  // it has just ceased to
-    bool fresh = false;     // it begins in this step
-
-    template <typename Self, typename Archive>
-    static void visit(Self& self, Archive& archive) {
-      archive("n", self.n)("point", self.point)("key", self.key)("history", self.history);
-      archive("speed", self.speed)("angle", self.angle)("approaching", self.approaching);
-      archive("of_point", self.of_point);
-    }
-  };
   struct Pressing {
     wear::PloughingContact contact;
     double force = 0.0;  // [N]
@@ -306,28 +311,21 @@ class SphereWall {
     int part = 0;
     bool of_point = false;
   };
-  /// The one triangle that a point contact lies on, of many contacts with meshes all that a step reads of
-  /// them. While the surface is the same and the sphere on its free way, the ball reaches no other triangle,
-  /// the candidates are not stale, and so a search would give the same bits.
-  struct Face {
-    geometry::Index triangle = -1;  // of the mesh; -1: there is none
-    std::int32_t local = 0;         // in the candidates
-    std::uint64_t revision = 0;     // of the surface
-    contact::FreeWay way;           // past all others
-    double load = 0.0;              // up to which the candidates reach far enough [N]
-    double width = 0.0;             // [m]
-    std::array<Vec3, 3> corner;
-    Vec3 normal;        // times area
-    double area = 0.0;  // [m^2]
+  /// The few triangles around point contacts, of many contacts with meshes all that a step reads of the
+  /// mesh. While the sphere is on its way past all others, the candidates are not stale, and so a search
+  /// would give the same bits.
+  struct Near : core::InSmallBlocks {
+    bool holds = false;
+    std::uint64_t revision = 0;  // of the surface
+    double load = 0.0;           // up to which the candidates reach far enough [N]
+    contact::FewTriangles few;
   };
-  [[nodiscard]] std::array<Vec3, 3> corners_of(std::size_t t) const noexcept;
-  [[nodiscard]] bool stays_on_face(const Wall& wall, const Vec3& c, double load) const noexcept {
-    return face_.triangle >= 0 && wall.surface().revision() == face_.revision && load <= face_.load &&
-           face_.way.holds(c, wall.surface().odometer());
+  [[nodiscard]] bool stays_near(const Wall& wall, const Vec3& c, double load) const noexcept {
+    return near_ && near_->holds && load <= near_->load && near_->few.way.holds(c, wall.surface().odometer());
   }
-  [[nodiscard]] bool touch_face(const Wall& wall, const Vec3& c, double R,
+  [[nodiscard]] bool touch_near(const Wall& wall, const Vec3& c, double R,
                                 const contact::PairProperties& pair);
-  void note_face(const Wall& wall, const Vec3& c, double R, const contact::PairProperties& pair);
+  void note_near(const Wall& wall, double R, const contact::PairProperties& pair);
   const std::vector<Spot>& find_spots(const Wall& wall);
   [[nodiscard]] std::span<const char> mask_of(const Wall& wall, int part, bool of_point);
   [[nodiscard]] wear::OverlapField overlap_field(double R, double deepest, bool of_point);
@@ -340,7 +338,10 @@ class SphereWall {
     std::span<const WearShare> triangles;
     [[nodiscard]] bool nowhere() const noexcept { return nodes == nullptr && triangles.empty(); }
   };
-  [[nodiscard]] bool lands_inside(const Touch& touch, double a, WearShare& share) const;
+  [[nodiscard]] static bool lands_inside(const contact::CandidateTriangle& triangle, const Vec3& point,
+                                         double a, WearShare& share) noexcept;
+  void land_on_triangles(const Wall& wall, const Touch& touch, double R, double d_e,
+                         std::vector<WearShare>& shares);
   /// @param d_e Hertz's approach of its force [m]   @return valid until the next call
   [[nodiscard]] Landing land(const Wall& wall, const Touch& touch, double R, double d_e);
   void deposit_landed(Wall& wall, const Landing& landing, double dV);
@@ -371,6 +372,7 @@ class SphereWall {
                             contact::TangentialHistory& history, Vec3& torque) const;
   void add_centroid_motion(const Wall& wall);
   [[nodiscard]] double unnoted_centroid_volume(const Wall& wall);
+  [[nodiscard]] double area_when_noted(std::size_t t) const noexcept;
   void note_nodes();
   [[nodiscard]] bool inside(std::size_t t) const noexcept;
 
@@ -378,8 +380,8 @@ class SphereWall {
   // read.
   Scratch* scratch_ = nullptr;
   bool stale_ = true;     // the candidates were gathered anew in this step
-  bool on_face_ = false;  // this step's contact was found on face_, without a search
-  Face face_;
+  bool is_near_ = false;  // this step's contacts were found among near_, without a search
+  std::unique_ptr<Near> near_;
   double reach_ = 0.0;
   contact::CandidateSkin skin_;
   Vec3 noted_at_;
@@ -389,10 +391,10 @@ class SphereWall {
   double centroid_volume_ = 0.0;
   static constexpr std::uint64_t kNeverNoted = ~std::uint64_t{0};
   std::uint64_t noted_revision_ = kNeverNoted;  // of the surface, when its nodes were last noted
-  std::vector<Touch> touches_;
-  std::vector<Memory> memory_, kept_;
+  core::SmallVector<Touch> touches_;
+  core::SmallVector<Memory> memory_;
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
-  std::vector<Vec3> noted_;           // of each candidate node: where it was when last noted
+  core::SmallVector<Vec3> noted_;     // of each candidate node: where it was when last noted
   contact::Tip tip_;
   contact::MeshCandidates candidates_;
   contact::PointContactFinder points_;
@@ -402,10 +404,10 @@ class SphereWall {
   double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
   double tip_area_ = 0.0;                       // of the tip under pressure, of late [m^2]
   wear::RidgeBuilder ridges_;
-  double unpiled_ = 0.0, slid_ = 0.0;                 // since the last pile [m^3, m]
-  std::vector<Pressing> ploughing_;                   // the last contacts
-  std::vector<contact::kernels::NodeMotion> motion_;  // of the nodes noted, since then, padded
-  std::vector<double> terms_;                         // scratch
+  double unpiled_ = 0.0, slid_ = 0.0;                       // since the last pile [m^3, m]
+  std::vector<Pressing> ploughing_;                         // the last contacts
+  core::SmallVector<contact::kernels::NodeMotion> motion_;  // of the nodes noted, since then, padded
+  std::vector<double> terms_;                               // scratch
 };
 
 }  // namespace abradem::simulation

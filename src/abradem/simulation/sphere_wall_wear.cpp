@@ -15,21 +15,43 @@ std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 /// Where the Hertz footprint lies wholly inside one triangle, its pressure is symmetric about the nearest
 /// point, so that its moments with the (linear) shape functions are these functions there: no integral is
 /// needed.
-bool SphereWall::lands_inside(const Touch& touch, double a, WearShare& share) const {
-  const std::size_t t = at(touch.nearest);
-  const std::array<Vec3, 3> p = on_face_ ? face_.corner : corners_of(t);
-  const Vec3 &p0 = p[0], &p1 = p[1], &p2 = p[2];
+bool SphereWall::lands_inside(const contact::CandidateTriangle& triangle, const Vec3& point, double a,
+                              WearShare& share) noexcept {
+  const auto& [p0, p1, p2] = triangle.corner;
   const Vec3 area = cross(p1 - p0, p2 - p0);
   const double area2 = norm2(area);
   // Shares of the area opposite each corner; over an edge's length, distances from the edges.
-  const double b0 = dot(area, cross(p2 - p1, touch.point - p1)) / area2,
-               b1 = dot(area, cross(p0 - p2, touch.point - p2)) / area2, b2 = 1.0 - b0 - b1;
+  const double b0 = dot(area, cross(p2 - p1, point - p1)) / area2,
+               b1 = dot(area, cross(p0 - p2, point - p2)) / area2, b2 = 1.0 - b0 - b1;
   const double size = std::sqrt(area2);
   if (b0 * size < a * norm(p2 - p1) || b1 * size < a * norm(p0 - p2) || b2 * size < a * norm(p1 - p0))
     return false;
-  share = on_face_ ? WearShare{face_.triangle, 1.0, b0, b1, b2, face_.area}
-                   : WearShare{candidates_.triangle[t], 1.0, b0, b1, b2, candidates_.area[t]};
+  share = {triangle.triangle, triangle.vertex, 1.0, b0, b1, b2, triangle.area};
   return true;
+}
+
+/// Under a sphere as new whose contact is a point.
+void SphereWall::land_on_triangles(const Wall& wall, const Touch& touch, double R, double d_e,
+                                   std::vector<WearShare>& shares) {
+  const bool hertz = wall.setup().footprint == Footprint::hertz;
+  const std::span<const contact::CandidateTriangle> under = points_.triangles_of(touch.part);
+  if (hertz && wall.setup().deformation != DeformationRule::paper) {
+    const auto nearest = std::ranges::find(under, touch.nearest, &contact::CandidateTriangle::local);
+    WearShare share;
+    if (lands_inside(*nearest, touch.point, contact::contact_radius(R, d_e), share)) {
+      shares.push_back(share);
+      return;
+    }
+  }
+  const wear::Ball ball{centre_, R, touch.deepest};
+  const wear::FootprintShares& print =
+      hertz ? scratch().footprint.hertz(under, ball, d_e) : scratch().footprint.overlap(under, ball);
+  if (!(print.total > 0.0)) return;
+  const double part = 1.0 / print.total;
+  for (std::size_t k = 0; k < print.count; ++k)
+    if (const double w = (print.at0[k] + print.at1[k]) + print.at2[k]; w > 0.0)
+      shares.push_back({under[k].triangle, under[k].vertex, part * w, part * print.at0[k],
+                        part * print.at1[k], part * print.at2[k], under[k].area});
 }
 
 /// Where what a contact does to the wall falls; on a plane nowhere.
@@ -40,11 +62,10 @@ SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, doubl
   const bool paper = wall.setup().deformation == DeformationRule::paper;
   if (wall.setup().contact == ContactRule::per_triangle) {
     const std::size_t t = at(touch.part);
-    WearShare share{candidates_.triangle[t], 1.0, 0.0, 0.0, 0.0, candidates_.area[t]};
+    const contact::CandidateTriangle triangle = candidates_.triangle_at(t);
+    WearShare share{triangle.triangle, triangle.vertex, 1.0, 0.0, 0.0, 0.0, triangle.area};
     if (!paper) {
-      const Vec3 a = candidates_.node_position(at(candidates_.v0[t]));
-      const Vec3 e1 = candidates_.node_position(at(candidates_.v1[t])) - a;
-      const Vec3 e2 = candidates_.node_position(at(candidates_.v2[t])) - a;
+      const Vec3 a = triangle.corner[0], e1 = triangle.corner[1] - a, e2 = triangle.corner[2] - a;
       const Vec3 p = touch.point - a;
       const double d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), det = d11 * d22 - d12 * d12;
       share.at1 = std::clamp((d22 * dot(p, e1) - d12 * dot(p, e2)) / det, 0.0, 1.0);
@@ -55,15 +76,9 @@ SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, doubl
     return {nullptr, shares};
   }
 
-  WearShare share;
-  if (touch.of_point && !paper && !tip_.worn() && wall.setup().footprint == Footprint::hertz &&
-      lands_inside(touch, contact::contact_radius(R, d_e), share)) {
-    shares.push_back(share);
+  if (touch.of_point && !tip_.worn()) {
+    land_on_triangles(wall, touch, R, d_e, shares);
     return {nullptr, shares};
-  }
-  if (on_face_) {  // all triangles are asked for now
-    points_.resolved(candidates_, centre_, R);
-    on_face_ = false;
   }
   const std::span<const char> mask = mask_of(wall, touch.part, touch.of_point);
   const wear::OverlapField field = overlap_field(R, touch.deepest, touch.of_point);
@@ -75,8 +90,8 @@ SphereWall::Landing SphereWall::land(const Wall& wall, const Touch& touch, doubl
   const double part = 1.0 / print.total;
   for (std::size_t t = 0; t < print.count; ++t)
     if (const double w = (print.at0[t] + print.at1[t]) + print.at2[t]; w > 0.0)
-      shares.push_back({candidates_.triangle[t], part * w, part * print.at0[t], part * print.at1[t],
-                        part * print.at2[t], candidates_.area[t]});
+      shares.push_back({candidates_.triangle[t], candidates_.triangle_at(t).vertex, part * w,
+                        part * print.at0[t], part * print.at1[t], part * print.at2[t], candidates_.area[t]});
   return {nullptr, shares};
 }
 
@@ -97,7 +112,7 @@ void SphereWall::deposit_landed(Wall& wall, const Landing& landing, double dV) {
     for (const WearShare& s : landing.triangles) surface.deposit_element(s.triangle, dV * s.whole);
   } else {
     for (const WearShare& s : landing.triangles)
-      surface.deposit(s.triangle, dV * s.whole, dV * s.at0, dV * s.at1, dV * s.at2);
+      surface.deposit(s.triangle, s.vertex, dV * s.whole, dV * s.at0, dV * s.at1, dV * s.at2);
   }
 }
 
@@ -170,7 +185,7 @@ void SphereWall::book(Wall& wall, const WearRecords& records, const WearRecords:
 
 /// Triangles of one contact (0: not of it); empty: all.
 std::span<const char> SphereWall::mask_of(const Wall& wall, int part, bool of_point) {
-  const std::span<const int> parts = of_point ? points_.sets() : patches_.clusters();
+  const std::span<const int> parts = of_point ? points_.sets(candidates_) : patches_.clusters();
   if (parts.empty() || wall.setup().contact == ContactRule::per_triangle) return {};
   std::vector<char>& mask = scratch().mask;
   mask.resize(candidates_.triangle_count());

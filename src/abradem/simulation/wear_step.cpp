@@ -62,18 +62,13 @@ void Simulation::fetch_elements(const WearRecords& records) {
     if (r.nodal) continue;
     const auto w = static_cast<std::size_t>(r.wall);
     const MapLayer map = map_layer(w, r.material);
+    if (map.layer != nullptr) map.layer->fetch(r.sample);
     for (std::size_t k = r.first; k < r.end; ++k) {
       const geometry::Index t = records.share[k].triangle;
-      walls_[w].surface().fetch(t);
+      walls_[w].surface().fetch(t, records.share[k].vertex);
       if (map.layer != nullptr) map.layer->fetch(static_cast<std::size_t>(t));
     }
   }
-}
-
-void Simulation::fetch_vertices(const WearRecords& records) {
-  for (const WearRecords::Record& r : records.record)
-    for (std::size_t k = r.first; k < r.end && !r.nodal; ++k)
-      walls_[static_cast<std::size_t>(r.wall)].surface().fetch_vertices(records.share[k].triangle);
 }
 
 void Simulation::book_bulk_wear() {
@@ -83,8 +78,7 @@ void Simulation::book_bulk_wear() {
   std::vector<double> groove(ploughs() ? meshes.size() : 0, 0.0);  // of each contact [m^3]
   const std::vector<WearRecords>& parts = bulk_->walls().wear();
   for (std::size_t part = 0; part < parts.size(); ++part) {
-    if (part + 1 < parts.size()) fetch_vertices(parts[part + 1]);
-    if (part + 2 < parts.size()) fetch_elements(parts[part + 2]);
+    if (part + 1 < parts.size()) fetch_elements(parts[part + 1]);
     const WearRecords& records = parts[part];
     for (const WearRecords::Record& record : records.record) {
       BulkWalls::NearMesh& m = meshes[static_cast<std::size_t>(record.contact)];

@@ -13,6 +13,7 @@ namespace abradem::wear {
 
 namespace {
 
+using contact::CandidateTriangle;
 using contact::MeshCandidates;
 
 /// g / R of a point of excess e; the negative branch (outside the ball) included.
@@ -38,6 +39,12 @@ struct OverlapWeight {
 ABRADEM_INLINE double shallow_depth(double e) {
   using contact::series::kOverlap;
   return e * (kOverlap[1] + e * (kOverlap[2] + e * (kOverlap[3] + e * (kOverlap[4] + e * kOverlap[5]))));
+}
+
+/// Excess at the rim of Hertz's disc.
+double hertz_rim(double R, double deepest, double d_e) noexcept {
+  const double g = (deepest - 0.5 * d_e) / R;
+  return g * (2.0 - g);
 }
 
 /// Weight times area of each node, and their sum.
@@ -114,9 +121,19 @@ ABRADEM_DISPATCH Moments weigh_points(std::size_t padded_count, const double* __
 
 const FootprintShares& FootprintIntegrator::hertz(const MeshCandidates& candidates, const OverlapField& field,
                                                   double d_e, bool by_elements, std::span<const char> mask) {
-  const double g_cut = (field.deepest - 0.5 * d_e) / field.R;
-  return integrate(candidates, field, g_cut * (2.0 - g_cut), std::sqrt(field.R * d_e), by_elements, mask,
-                   HertzWeight{d_e - 2.0 * field.deepest, 2.0 * field.R});
+  return integrate(candidates, field, hertz_rim(field.R, field.deepest, d_e), std::sqrt(field.R * d_e),
+                   by_elements, mask, HertzWeight{d_e - 2.0 * field.deepest, 2.0 * field.R});
+}
+
+const FootprintShares& FootprintIntegrator::hertz(std::span<const CandidateTriangle> triangles,
+                                                  const Ball& ball, double d_e) {
+  return integrate(triangles, ball, hertz_rim(ball.R, ball.deepest, d_e),
+                   HertzWeight{d_e - 2.0 * ball.deepest, 2.0 * ball.R});
+}
+
+const FootprintShares& FootprintIntegrator::overlap(std::span<const CandidateTriangle> triangles,
+                                                    const Ball& ball) {
+  return integrate(triangles, ball, 0.0, OverlapWeight{});
 }
 
 const FootprintShares& FootprintIntegrator::overlap(const MeshCandidates& candidates,
@@ -188,6 +205,45 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
     shares_.total = 3.0;
   }
   shares_.count = n;
+  shares_.at0 = at0_;
+  shares_.at1 = at1_;
+  shares_.at2 = at2_;
+  return shares_;
+}
+
+template <typename Weight>
+const FootprintShares& FootprintIntegrator::integrate(std::span<const CandidateTriangle> triangles,
+                                                      const Ball& ball, double cut, const Weight& weight) {
+  const double inverse = 1.0 / (ball.R * ball.R);
+  const auto excess = [&](const Vec3& corner) { return 1.0 - norm2(corner - ball.c) * inverse; };
+  for (auto* array : {&at0_, &at1_, &at2_}) array->assign(triangles.size(), 0.0);
+  shares_.nodal = false;
+  shares_.total = 0.0;
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    const auto& [p0, p1, p2] = triangles[k].corner;
+    const double e0 = excess(p0), e1 = excess(p1), e2 = excess(p2);
+    if (std::max({e0, e1, e2}) + triangles[k].longest * inverse / 3.0 <= cut) continue;
+    const CornerIntegrals part =
+        integrate_over_triangle(weight.ball(ball.R), p0 - ball.c, p1 - ball.c, p2 - ball.c);
+    at0_[k] = part.at0;
+    at1_[k] = part.at1;
+    at2_[k] = part.at2;
+    shares_.total += (part.at0 + part.at1) + part.at2;
+  }
+  if (!(shares_.total > 0.0) && !triangles.empty()) {
+    // A spot too small for numbers: all of it to the triangle that reaches deepest.
+    double most = -1.0;
+    std::size_t deepest = 0;
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      const auto& [p0, p1, p2] = triangles[k].corner;
+      const double e = contact::triangle_excess(excess(p0), excess(p1), excess(p2), norm2(p1 - p0) * inverse,
+                                                norm2(p2 - p1) * inverse, norm2(p0 - p2) * inverse);
+      if (e > most) most = e, deepest = k;
+    }
+    at0_[deepest] = at1_[deepest] = at2_[deepest] = 1.0;
+    shares_.total = 3.0;
+  }
+  shares_.count = triangles.size();
   shares_.at0 = at0_;
   shares_.at1 = at1_;
   shares_.at2 = at2_;

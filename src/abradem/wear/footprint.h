@@ -20,7 +20,7 @@ struct FootprintShares {
   bool nodal = false;
   std::span<const double> at_node;  ///< of the first candidate nodes; the others have no load
   std::size_t count = 0;
-  std::span<const double> at0, at1, at2;  ///< per candidate triangle
+  std::span<const double> at0, at1, at2;  ///< per candidate triangle, or per triangle given
   double total = 0.0;                     ///< sum of all
 };
 
@@ -36,6 +36,13 @@ struct OverlapField {
   Vec3 c{};  ///< the sphere's centre [m]
 };
 
+/// The ball of a sphere as new over a surface.
+struct Ball {
+  Vec3 c;                ///< its centre [m]
+  double R = 0.0;        ///< [m]
+  double deepest = 0.0;  ///< largest overlap g under it [m]
+};
+
 /// Distributes wear by a pressure that depends on the local overlap g alone. docs/theory/wear.md#footprint
 class FootprintIntegrator {
  public:
@@ -49,7 +56,15 @@ class FootprintIntegrator {
   const FootprintShares& overlap(const contact::MeshCandidates& candidates, const OverlapField& field,
                                  bool by_elements, std::span<const char> mask = {});
 
+  /// The same on triangles by themselves.
+  const FootprintShares& hertz(std::span<const contact::CandidateTriangle> triangles, const Ball& ball,
+                               double d_e);
+  const FootprintShares& overlap(std::span<const contact::CandidateTriangle> triangles, const Ball& ball);
+
  private:
+  template <typename Weight>
+  const FootprintShares& integrate(std::span<const contact::CandidateTriangle> triangles, const Ball& ball,
+                                   double cut, const Weight& weight);
   template <typename Weight>
   const FootprintShares& integrate(const contact::MeshCandidates& candidates, const OverlapField& field,
                                    double cut, double reach, bool by_elements, std::span<const char> mask,

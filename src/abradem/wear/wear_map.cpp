@@ -65,7 +65,7 @@ void WearMap::Booking::add(std::size_t element, double share, double area) noexc
 
 void WearMap::Booking::finish() {
   if (!(largest_share_ > 0.0)) return;
-  Spectra& spectra = layer_.regions[map_.region_of(largest_)];
+  Spectra& spectra = layer_.regions[layer_.regions.size() == 1 ? 0 : map_.region_of(largest_)];
   const ContactSample& contact = s_.work.contact;
   if (contact.slip > 0.0 && contact.F_n > 0.0) {
     SlidingSums& sums = spectra.sliding[Spectra::sliding_key(contact.F_n / s_.load.weight, s_.load.v_t)];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -39,11 +40,17 @@ class SparseBins {
     }
   };
   Sums& operator[](std::uint64_t key) {
-    if (last_ < entries_.size() && entries_[last_].key == key) return entries_[last_].sums;
+    std::uint32_t& found = found_[place_of(key)];
+    if (found < entries_.size() && entries_[found].key == key) return entries_[found].sums;
     auto place = std::ranges::lower_bound(entries_, key, {}, &Entry::key);
     if (place == entries_.end() || place->key != key) place = entries_.insert(place, Entry{key, {}});
-    last_ = static_cast<std::size_t>(place - entries_.begin());
+    found = static_cast<std::uint32_t>(place - entries_.begin());
     return place->sums;
+  }
+  /// Asks the memory for the sums of a key that occurred before.
+  void fetch(std::uint64_t key) const noexcept {
+    if (const std::size_t found = found_[place_of(key)]; found < entries_.size())
+      __builtin_prefetch(&entries_[found], 1);
   }
   /// In the order of the keys.
   [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }
@@ -54,8 +61,12 @@ class SparseBins {
   }
 
  private:
+  [[nodiscard]] static std::size_t place_of(std::uint64_t key) noexcept {
+    return key * 0x9e3779b97f4a7c15U >> 54U;
+  }
+
   std::vector<Entry> entries_;
-  std::size_t last_ = 0;
+  std::array<std::uint32_t, 1024> found_{};  // where keys were last found, by ten bits of their hash
 };
 
 /// Contacts that slide, by their normal force and sliding speed.
@@ -173,6 +184,12 @@ class WearMap {
     std::vector<Element> elements;
     std::vector<Spectra> regions;
 
+    /// Asks the memory for the class of a contact that slides; of several regions for none.
+    void fetch(const MapSample& sample) const noexcept {
+      if (regions.size() == 1)
+        regions.front().sliding.fetch(
+            Spectra::sliding_key(sample.work.contact.F_n / sample.load.weight, sample.load.v_t));
+    }
     /// Asks the memory for an element.
     void fetch(std::size_t element) const noexcept {
       const auto* from = reinterpret_cast<const char*>(&elements[element]);

@@ -53,21 +53,20 @@ class WearingSurface {
 
   /// Books wear of one element: `volume` >= 0 [m^3] in all, at0 … at2 of it at its vertices (their sum).
   void deposit(Index triangle, double volume, double at0, double at1, double at2) {
+    deposit(triangle, mesh_.triangles[static_cast<std::size_t>(triangle)], volume, at0, at1, at2);
+  }
+  /// @param v the element's vertices, for those who know them
+  void deposit(Index triangle, const geometry::Triangle& v, double volume, double at0, double at1,
+               double at2) {
     volume_[static_cast<std::size_t>(triangle)] += volume;
-    const geometry::Triangle& v = mesh_.triangles[static_cast<std::size_t>(triangle)];
     add_to_vertex(v[0], at0);
     add_to_vertex(v[1], at1);
     add_to_vertex(v[2], at2);
   }
-  /// Asks the memory for what a deposit writes to: first what belongs to the triangle, then, when that is
-  /// there, what belongs to its vertices.
-  void fetch(Index triangle) const noexcept {
+  /// Asks the memory for what a deposit writes to.
+  void fetch(Index triangle, const geometry::Triangle& vertices) const noexcept {
     __builtin_prefetch(&volume_[static_cast<std::size_t>(triangle)], 1);
-    __builtin_prefetch(&mesh_.triangles[static_cast<std::size_t>(triangle)]);
-  }
-  void fetch_vertices(Index triangle) const noexcept {
-    for (const Index v : mesh_.triangles[static_cast<std::size_t>(triangle)])
-      __builtin_prefetch(&pending_[static_cast<std::size_t>(v)], 1);
+    for (const Index v : vertices) __builtin_prefetch(&pending_[static_cast<std::size_t>(v)], 1);
   }
   /// The same in two parts: what falls to a vertex now, and what an element has lost, for the record only.
   void deposit_at_vertex(Index vertex, double volume) { add_to_vertex(vertex, volume); }
