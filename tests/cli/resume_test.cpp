@@ -16,6 +16,7 @@
 #include "abradem/io/csv.h"
 #include "cli/program.h"
 #include "support/case_texts.h"
+#include "support/says.h"
 
 namespace abradem::test {
 namespace {
@@ -263,6 +264,37 @@ TEST(Resume, OfParticlesInNumbersGoesOnPastTheEnd) {
   const io::CsvTable table = io::read_csv(scratch.path() / "short" / "tables" / "particles.csv");
   EXPECT_EQ(table.rows(), 4U);
   EXPECT_GT(table.column("inserted").back(), 50.0);
+}
+
+/// A rock falls on the feed's plate, and is taken up again in the middle of that; so is what goes on from
+/// there.
+TEST(Resume, OfANamedClumpGoesOn) {
+  const ScratchFolder scratch;
+  write_feed(scratch.path());
+  write_file(scratch.path() / "feed.toml", read_file(scratch.path() / "feed.toml") + R"([shape.rock]
+spheres = [{ position = [0, 0, 0], radius = "1.5 mm" }, { position = ["2 mm", 0, 0], radius = "1 mm" }]
+[particle.rock]
+material = "glass"
+shape = "rock"
+rotation = ["20 deg", "40 deg", 0]
+position = [0, "4 mm", "5 mm"]
+velocity = [0, 0, "-1 m/s"]
+)");
+  const std::string run = "run feed.toml --quiet --no-report --threads 1 --set output.every='10 ms'";
+  ASSERT_EQ(run_program(run + " -o whole", scratch.path()).exit_code, 0);
+  ASSERT_EQ(run_program(run + " --set run.end='17 ms' -o short", scratch.path()).exit_code, 0);
+  const Outcome rest =
+      run_program("resume short --quiet --no-report --threads 2 --set run.end='30 ms'", scratch.path());
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  expect_same(scratch.path() / "whole", scratch.path() / "short");
+  EXPECT_TRUE(
+      contains(run_program("check feed.toml", scratch.path()).err, "particle 'rock' of glass: shape 'rock'"));
+  // Inside the plate it is refused before the run.
+  const Outcome buried =
+      run_program(run + " -o buried --set particle.rock.position='[0, 0, \"0.5 mm\"]'", scratch.path());
+  EXPECT_EQ(buried.exit_code, 2);
+  EXPECT_TRUE(contains(buried.err, "'rock': "));
+  EXPECT_TRUE(contains(buried.err, "of its 2 spheres lie inside wall 'plate'"));
 }
 
 /// The mesh and the table of a motion are part of a checkpoint: their files are gone when the run is taken

@@ -19,6 +19,7 @@
 #include "abradem/io/csv.h"
 #include "abradem/io/mesh_files.h"
 #include "cli/program.h"
+#include "support/case_texts.h"
 #include "support/says.h"
 
 namespace abradem::test {
@@ -579,6 +580,34 @@ TEST(Interrupted, ByCtrlCOrAPoliteKillLeavesAWholeFolder) {
     EXPECT_EQ(run["results"]["time_s"], table(folder, "revolutions").column("time_s").back());
     EXPECT_EQ(run["results"]["law_volume_mm3"], run["ledger"]["law_volume_mm3"]);
   }
+}
+
+/// Clumps as they were given, by name and in numbers: a mesh file's unit is not judged by a radius that no
+/// key states.
+TEST(MeshFile, UnderClumpsAsTheyWereGiven) {
+  const ScratchFolder scratch;
+  write_file(scratch.path() / "plate.obj", "v -10 -10 0\nv 10 -10 0\nv 10 10 0\nv -10 10 0\nf 1 2 3 4\n");
+  write_file(scratch.path() / "rocks.toml", std::string(kGlass) + R"([wall.plate]
+material = "glass"
+mesh = { file = "plate.obj", unit = "mm" }
+[shape.rock]
+spheres = [{ position = [0, 0, 0], radius = "1.5 mm" }, { position = ["2 mm", 0, 0], radius = "1 mm" }]
+[particle.rock]
+material = "glass"
+shape = "rock"
+position = [0, 0, "3 mm"]
+velocity = [0, 0, "-1 m/s"]
+[insertion.rocks]
+material = "glass"
+shape = "rock"
+number = 2
+volume = { low = ["-8 mm", "-8 mm", "6 mm"], high = ["8 mm", "8 mm", "14 mm"] }
+[run]
+end = "2 ms"
+)");
+  const Outcome run = run_program("run rocks.toml -o out --quiet", scratch.path());
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(table(scratch.path() / "out", "particles").column("particles").back(), 3.0);
 }
 
 }  // namespace

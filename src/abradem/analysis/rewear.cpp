@@ -2,9 +2,15 @@
 #include "abradem/analysis/rewear.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
+#include <string>
 #include <tuple>
+
+#include "abradem/core/error.h"
+#include "abradem/core/random.h"
 
 namespace abradem::analysis {
 
@@ -75,11 +81,71 @@ double shared(double of_element, double of_means, double of_classes) {
   return of_means > 0.0 ? of_element / of_means * of_classes : 0.0;
 }
 
+/// Contacts that an expression is tried with: each quantity by itself, over many decades.
+constexpr int kTrials = 200;
+wear::WorkSample draw(core::RandomStream& random) {
+  const auto between = [&](double low, double high) { return low * std::pow(high / low, random.uniform()); };
+  return {{between(1e-4, 1e4), between(1e-10, 1e-3)}, between(1e-12, 1.0), between(1e-12, 1.0)};
+}
+/// Volume; NaN where it is none.
+double tried(const wear::Expression& e, const wear::WorkSample& work, const wear::ContactLoad& load) {
+  try {
+    return e.of_step(work, load);
+  } catch (const SimulationError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 }  // namespace
+
+std::optional<LinearExpression> linear_expression(const wear::Expression& e) {
+  using wear::Symbol;
+  if (e.by_impact()) return std::nullopt;
+  for (const Symbol s : {Symbol::Ft, Symbol::v_slide, Symbol::a, Symbol::p_mean, Symbol::p_max, Symbol::dt,
+                         Symbol::m, Symbol::R})
+    if (e.names(s)) return std::nullopt;
+  // What has cases may be another where it is not tried; what has none, and is linear at some places, is so
+  // everywhere.
+  for (const char* cases : {"<", ">", "=", "?", "&", "|", "min", "max", "abs"})
+    if (e.text().find(cases) != std::string::npos) return std::nullopt;
+  const wear::ContactLoad load{.dt = 1e-6};
+  constexpr double kForce = 1.0, kSlip = 1e-6, kWork = 1e-6;
+  const LinearExpression linear{tried(e, {{kForce, kSlip}, 0.0, 0.0}, load) / (kForce * kSlip),
+                                tried(e, {{0.0, 0.0}, kWork, 0.0}, load) / kWork,
+                                tried(e, {{0.0, 0.0}, 0.0, kWork}, load) / kWork};
+  core::RandomStream random(1);
+  for (int k = 0; k < kTrials; ++k) {
+    const wear::WorkSample w = draw(random);
+    const double sum = linear.force_sliding * w.contact.F_n * w.contact.slip +
+                       linear.shear_work * w.shear_work + linear.normal_work * w.normal_loss;
+    if (!(std::abs(tried(e, w, load) - sum) <= 1e-12 * sum)) return std::nullopt;
+  }
+  return linear;
+}
+
+bool wears_by_sliding_alone(const wear::Expression& e) {
+  core::RandomStream random(2);
+  for (int k = 0; k < kTrials; ++k) {
+    wear::WorkSample w = draw(random);
+    const wear::ContactLoad load{.F_t = random.uniform() * w.contact.F_n,
+                                 .v_t = random.uniform(),
+                                 .dt = 1e-6,
+                                 .radius = 1e-3,
+                                 .mass = 1e-6};
+    w.contact.slip = w.shear_work = 0.0;
+    if (tried(e, w, load) != 0.0) return false;
+  }
+  return true;
+}
 
 Reworn rewear(const Recorded& recorded, const std::vector<LawChange>& changes) {
   std::map<std::tuple<int, int>, const LawChange*> change_of;
-  for (const LawChange& c : changes) change_of[{c.wall, c.abrader}] = &c;
+  std::map<const LawChange*, LinearExpression> linear;
+  for (const LawChange& c : changes) {
+    change_of[{c.wall, c.abrader}] = &c;
+    if (!c.after.expression) continue;
+    if (const auto found = linear_expression(*c.after.expression)) linear[&c] = *found;
+  }
   const auto change_at = [&](int wall, int abrader) -> const LawChange* {
     const auto change = change_of.find({wall, abrader});
     return change == change_of.end() ? nullptr : change->second;
@@ -118,8 +184,12 @@ Reworn rewear(const Recorded& recorded, const std::vector<LawChange>& changes) {
     sums.finnie = finnie ? *finnie * sums.finnie
                          : shared(own.finnie, region_sums.means.finnie, region_sums.classes.finnie);
     sums.oka = oka ? *oka * sums.oka : shared(own.oka, region_sums.means.oka, region_sums.classes.oka);
+    const auto by_sums = linear.find(change);
     sums.expression =
-        expression ? *expression * sums.expression
+        expression                ? *expression * sums.expression
+        : by_sums != linear.end() ? by_sums->second.force_sliding * sums.force_sliding +
+                                        by_sums->second.shear_work * sums.shear_work +
+                                        by_sums->second.normal_work * sums.normal_work
         : after.expression->by_impact()
             ? shared(own.expression, region_sums.means.expression, region_sums.classes.expression)
             : shared(e.sums.force_sliding, region_sums.force_sliding, region_sums.by_steps);
@@ -128,7 +198,7 @@ Reworn rewear(const Recorded& recorded, const std::vector<LawChange>& changes) {
     element.wall = e.wall, element.element = e.element, element.region = e.region, element.area = e.area;
     RewornRegion& region = regions[{e.wall, e.region}];
     region.wall = e.wall, region.region = e.region;
-    region.exact = region.exact && finnie && oka && expression;
+    region.exact = region.exact && finnie && oka && (expression || by_sums != linear.end());
     for (std::size_t m = 0; m < v.size(); ++m) {
       element.volumes[m] += v[m];
       region.volumes[m] += v[m];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "abradem/wear/wear_map.h"
@@ -45,6 +46,16 @@ struct LawChange {
   double radius = 0.0, mass = 0.0;  ///< of its spheres, where an expression of steps needs them [m, kg]
 };
 
+/// An expression of steps as a sum of what a map keeps of each element, each times a number.
+struct LinearExpression {
+  double force_sliding = 0.0;                  ///< of F_n s [1/Pa]
+  double shear_work = 0.0, normal_work = 0.0;  ///< [m^3/J]
+};
+/// @return nothing where it is no such sum, or cannot be known to be one everywhere
+[[nodiscard]] std::optional<LinearExpression> linear_expression(const wear::Expression& expression);
+/// Does nothing wear where nothing slides, whatever else a contact does?
+[[nodiscard]] bool wears_by_sliding_alone(const wear::Expression& expression);
+
 struct RewornElement {
   int wall = 0, element = 0, region = 0;
   double area = 0.0;
@@ -63,10 +74,11 @@ struct Reworn {
 };
 
 /// Laws by work are exact: their coefficients times the sums of each element. So are Finnie's and Oka's where
-/// the run had them and nothing but the coefficient is other. Else each class of impacts counts as its mean,
-/// and the region's volume is shared out among its elements as their mean impacts would wear them. So it is
-/// with another expression by impact; one of steps (proportional to them, without dt and normal_work) takes
-/// each class of contacts that slide as its mean, and is shared out as Archard's law would be.
+/// the run had them and nothing but the coefficient is other, and linear expressions. Else each class of
+/// impacts counts as its mean, and the region's volume is shared out among its elements as their mean impacts
+/// would wear them. So it is with another expression by impact; one of steps (proportional to them, worn by
+/// sliding alone) takes each class of contacts that slide as its mean, and is shared out as Archard's law
+/// would be.
 [[nodiscard]] Reworn rewear(const Recorded& recorded, const std::vector<LawChange>& changes);
 
 }  // namespace abradem::analysis

@@ -39,7 +39,7 @@ int check_command(const CheckArguments& arguments) {
     return check_mesh_command(arguments.path, unit_of(arguments.unit), arguments.json);
   io::Case read = io::load_case(arguments.path, arguments.overrides);
   for (const std::string& note : read.notes) print_message(note);
-  io::read_insertion_files(read.setup);  // what they say counts too
+  for (const std::string& note : io::read_insertion_files(read.setup)) print_message(note);
   print_message(fmt::format("{}: no errors\n{}", arguments.path, summarize(read.setup)));
   return static_cast<int>(ExitCode::ok);
 }

@@ -29,7 +29,7 @@ RunInputs inputs_of(const simulation::Simulation& run, std::string resolved_case
       inputs.meshes.push_back({{wall.surface().reference().begin(), wall.surface().reference().end()},
                                wall.surface().mesh().triangles});
   for (const simulation::InsertionSetup& i : run.setup().insertions)
-    inputs.insertions.push_back({i.placed, i.size.radii, i.size.shares});
+    inputs.insertions.push_back({i.placed, i.turns, i.size.radii, i.size.shares});
   for (const simulation::ShapeSetup& shape : run.setup().shapes)
     inputs.shapes.push_back(shape.fit ? ShapeInputs{shape.fit->fit, shape.fit->solid} : ShapeInputs{});
   for (const simulation::WallSetup& wall : run.setup().walls) {

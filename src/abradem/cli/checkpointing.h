@@ -30,14 +30,25 @@ struct RunState {
   }
 };
 
-/// What an insertion took from files.
+}  // namespace abradem::cli
+
+/// Rotations are kept as the doubles that they are.
+template <>
+struct abradem::core::archive_detail::Plain<abradem::geometry::Quaternion> {
+  using Scalar = double;
+};
+
+namespace abradem::cli {
+
+/// What an insertion took from files and other runs.
 struct InsertionInputs {
   std::vector<simulation::PlacedSphere> placed;
+  std::vector<geometry::Quaternion> turns;
   std::vector<double> radii, shares;
 
   template <typename Self, typename Archive>
   static void visit(Self& self, Archive& archive) {
-    archive("placed", self.placed)("radii", self.radii)("shares", self.shares);
+    archive("placed", self.placed)("turns", self.turns)("radii", self.radii)("shares", self.shares);
   }
 };
 

@@ -102,7 +102,8 @@ std::string title_of(const fs::path& folder) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw IoError(fmt::format("{}: no such file; expected the output folder of a run", file.string()));
-  return io::parse_case(std::string(std::istreambuf_iterator<char>(stream), {}), file.string(), folder)
+  return io::parse_case(std::string(std::istreambuf_iterator<char>(stream), {}), file.string(), folder, {},
+                        io::NamedFiles::kept)
       .setup.title;
 }
 

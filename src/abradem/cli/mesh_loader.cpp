@@ -15,10 +15,11 @@
 namespace abradem::cli {
 
 MeshLoader::MeshLoader(const simulation::Setup& setup) {
-  for (const simulation::ParticleSetup& p : setup.particles)
-    largest_radius_ = std::max(largest_radius_.value_or(0.0), p.radius);
-  for (const simulation::InsertionSetup& i : setup.insertions)
-    largest_radius_ = std::max(largest_radius_.value_or(0.0), simulation::largest_radius(i.size));
+  const auto meet = [&](double radius) {  // 0: of a shape as it was given
+    if (radius > 0.0) largest_radius_ = std::max(largest_radius_.value_or(0.0), radius);
+  };
+  for (const simulation::ParticleSetup& p : setup.particles) meet(p.radius);
+  for (const simulation::InsertionSetup& i : setup.insertions) meet(simulation::largest_radius(i));
 }
 
 geometry::TriangleMesh MeshLoader::operator()(const simulation::MeshSetup& mesh, std::uint64_t seed) const {

@@ -83,17 +83,22 @@ Resumed put_back(const io::Checkpoint& checkpoint, const fs::path& folder,
     return *mesh++;
   };
   simulation::Setup setup = resumed.changed.setup;
-  archive.require(inputs.insertions.size() == setup.insertions.size(), "comes after other insertions");
-  for (std::size_t i = 0; i < setup.insertions.size(); ++i) {
-    setup.insertions[i].placed = inputs.insertions[i].placed;
-    setup.insertions[i].size.radii = inputs.insertions[i].radii;
-    setup.insertions[i].size.shares = inputs.insertions[i].shares;
-  }
   archive.require(inputs.shapes.size() == setup.shapes.size(), "comes after other shapes");
   for (std::size_t i = 0; i < setup.shapes.size(); ++i) {
     if (!setup.shapes[i].fit) continue;
     setup.shapes[i].fit->fit = inputs.shapes[i].fit;
     setup.shapes[i].fit->solid = inputs.shapes[i].solid;
+  }
+  setup = simulation::clumps_in_numbers(std::move(setup));  // as the run has them
+  archive.require(inputs.insertions.size() == setup.insertions.size(), "comes after other insertions");
+  for (std::size_t i = 0; i < setup.insertions.size(); ++i) {
+    setup.insertions[i].placed = inputs.insertions[i].placed;
+    setup.insertions[i].turns = inputs.insertions[i].turns;
+    archive.require(setup.insertions[i].turns.empty() ||
+                        setup.insertions[i].turns.size() == setup.insertions[i].placed.size(),
+                    "comes after turns of other particles");
+    setup.insertions[i].size.radii = inputs.insertions[i].radii;
+    setup.insertions[i].size.shares = inputs.insertions[i].shares;
   }
   archive.require(inputs.motions.size() == setup.walls.size(), "comes after other walls");
   for (std::size_t w = 0; w < setup.walls.size(); ++w) {

@@ -101,8 +101,9 @@ Setup changed(const Setup& before, const RewearArguments& a, const fs::path& fil
               "Fn * slip' and its constants",
               pair_of(w)));
       }
-  Setup after =
-      io::parse_case(io::resolved_case(setup), file.string(), file.parent_path(), a.overrides).setup;
+  Setup after = io::parse_case(io::resolved_case(setup), file.string(), file.parent_path(), a.overrides,
+                               io::NamedFiles::kept)
+                    .setup;
   for (const WearSetup& w : after.wear) check_coefficients(w);
   Setup same = after;
   same.wear = before.wear;
@@ -142,11 +143,11 @@ std::string chosen_name(const fs::path& folder, const std::string& asked) {
 double only_radius(const Setup& setup, const std::string& material) {
   std::vector<double> radii;
   for (const simulation::ParticleSetup& p : setup.particles)
-    if (p.material == material) radii.push_back(p.radius);
+    if (p.material == material) radii.push_back(p.shape.empty() ? p.radius : 0.0);
   for (const simulation::InsertionSetup& i : setup.insertions) {
     if (i.material != material) continue;
     const bool single = i.size.kind == simulation::SizeKind::single && i.shape.empty() &&
-                        i.volume.shape != simulation::VolumeShape::file;
+                        !simulation::gives_places(i.volume.shape);
     radii.push_back(single ? i.size.radius : 0.0);
   }
   return !radii.empty() && std::ranges::all_of(radii, [&](double r) { return r == radii[0]; }) ? radii[0]
@@ -157,7 +158,7 @@ double only_radius(const Setup& setup, const std::string& material) {
 void check_expression(const Setup& setup, const WearSetup& w, analysis::LawChange& change) {
   using wear::Symbol;
   const auto &was = change.before.expression, &is = change.after.expression;
-  if (!is || is->by_impact() || (was && is->same_as(*was))) return;
+  if (!is || is->by_impact() || (was && is->same_as(*was)) || analysis::linear_expression(*is)) return;
   const auto refuse = [&](const char* why) {
     throw InputError(
         fmt::format("wear \"{}\": the record of the run cannot tell what this expression wears: {}. Run "
@@ -165,13 +166,13 @@ void check_expression(const Setup& setup, const WearSetup& w, analysis::LawChang
                     pair_of(w), why));
   };
   if (!is->proportional_to_step()) refuse("its volume depends on the time step");
-  if (is->names(Symbol::dt))
+  if (is->names(Symbol::dt) && !analysis::wears_by_sliding_alone(*is))
     refuse("contacts that do not slide are in no class, and dt counts there too; the way slid is slip");
   if (is->names(Symbol::normal_work))
     refuse(
-        "classes of contacts have no normal_work; law impact_energy with normal_energy_coefficient wears by "
-        "it, "
-        "exactly");
+        "classes of contacts have no normal_work; times a constant, and added to Fn * slip and shear_work "
+        "times "
+        "others, it would be found exactly");
   const bool sized =
       std::ranges::any_of(std::array{Symbol::a, Symbol::p_mean, Symbol::p_max, Symbol::m, Symbol::R},
                           [&](Symbol s) { return is->names(s); });
@@ -238,7 +239,7 @@ int rewear_command(const RewearArguments& arguments) {
   const fs::path folder = arguments.folder, tables = folder / "tables", file = folder / "case.resolved.toml";
   if (std::error_code code; !fs::is_directory(folder, code))
     throw IoError(fmt::format("{}: no such folder; expected the output folder of a run", folder.string()));
-  const Setup before = io::parse_case(read_text(file), file.string(), folder).setup;
+  const Setup before = io::parse_case(read_text(file), file.string(), folder, {}, io::NamedFiles::kept).setup;
   const Setup after = changed(before, arguments, file);
   const analysis::Recorded recorded = io::read_recorded_wear(tables);
 

@@ -50,6 +50,10 @@ void announce(const Simulation& run, RunLog& log) {
                            1e3 * geometry::mean_edge_length(wall.surface().mesh())));
   for (const simulation::ShapeSetup& shape : run.setup().shapes)
     log.line(fmt::format("shape '{}': {}", shape.name, io::shape_text(shape)));
+  for (const simulation::InsertionSetup& i : run.setup().insertions)
+    if (!i.volume.run.empty())
+      log.line(
+          fmt::format("insertion '{}': {} particles as left by '{}'", i.name, i.placed.size(), i.volume.run));
   if (!run.setup().insertions.empty())
     log.line(fmt::format("{} particles in numbers at the start", run.bulk_state().present));
   log.line(fmt::format("{} steps of {:.4g} s, {} per output", run.total_steps(), run.time_step(),
@@ -326,7 +330,7 @@ int run_case(const RunOptions& options) {
                .report = options.report,
                .json = options.json};
   simulation::Setup given = options.setup;
-  io::read_insertion_files(given);
+  const std::vector<std::string> notes = io::read_insertion_files(given);
   io::read_motion_files(given);
   simulation::Setup setup = given;
   const bool choose = study::wants_acceleration(setup);
@@ -343,6 +347,7 @@ int run_case(const RunOptions& options) {
   RunLog log(options.output / "run.log", options.quiet);
   const PathLock lock(options.output / "run.log", PathLock::Kind::exclusive);
   log.line(fmt::format("{} -> {}", options.case_path.string(), options.output.string()));
+  for (const std::string& note : notes) log.line(note);
   if (choose) {
     how.record.acceleration = choose_acceleration(given, log);
     setup = study::accelerated(setup, how.record.acceleration->factor);

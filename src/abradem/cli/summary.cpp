@@ -63,15 +63,23 @@ std::string summarize(const Setup& setup) {
   for (const WallSetup& w : setup.walls)
     out += fmt::format("  wall '{}' of {}: {}, {}\n", w.name, w.material, shape_of(w.mesh), motions_of(w));
   for (const ParticleSetup& p : setup.particles)
-    out += fmt::format("  particle '{}' of {}: radius {}, load {:.4g} N{}\n", p.name, p.material,
-                       core::format_quantity(p.radius, "mm"), norm(p.load),
-                       p.guide == Guide::vertical ? ", guided" : "");
+    if (!p.shape.empty())
+      out += fmt::format("  particle '{}' of {}: shape '{}'\n", p.name, p.material, p.shape);
+    else
+      out += fmt::format("  particle '{}' of {}: radius {}, load {:.4g} N{}\n", p.name, p.material,
+                         core::format_quantity(p.radius, "mm"), norm(p.load),
+                         p.guide == Guide::vertical ? ", guided" : "");
   for (const InsertionSetup& i : setup.insertions)
-    out += fmt::format("  insertion '{}' of {}: {}{}\n", i.name, i.material,
-                       i.volume.shape == VolumeShape::file ? "as in " + i.volume.file
-                       : i.number > 0                      ? fmt::format("{} particles", i.number)
-                                                           : fmt::format("{:.4g} kg", i.mass.value_or(0.0)),
-                       i.mass_rate ? fmt::format(" at {:.4g} kg/s", *i.mass_rate) : "");
+    out +=
+        fmt::format("  insertion '{}' of {}: {}{}\n", i.name, i.material,
+                    i.volume.shape == VolumeShape::file ? "as in " + i.volume.file
+                    : i.volume.shape == VolumeShape::run
+                        ? fmt::format("{}as left by {}",
+                                      i.placed.empty() ? "" : fmt::format("{} particles, ", i.placed.size()),
+                                      i.volume.run)
+                    : i.number > 0 ? fmt::format("{} particles", i.number)
+                                   : fmt::format("{:.4g} kg", i.mass.value_or(0.0)),
+                    i.mass_rate ? fmt::format(" at {:.4g} kg/s", *i.mass_rate) : "");
   const Duration& end = setup.run.end;
   out += fmt::format("  run: {} {}, {}", core::format_number(end.value),
                      end.in_revolutions ? unit_of_counting(setup) : "s",

@@ -48,6 +48,7 @@ class Checker {
   void check_insertions();
   void check_face(const simulation::InsertionSetup& i, const std::string& path);
   void check_drawn(const simulation::InsertionSetup& i, const std::string& path);
+  void check_left(const simulation::InsertionSetup& i, const std::string& path);
 
   // wear
   void check_wear_pairs();
@@ -65,6 +66,7 @@ class Checker {
 
   // named particles
   void check_particle(const simulation::ParticleSetup& p);
+  void check_named_clump(const simulation::ParticleSetup& p, const std::string& path);
   void check_load(const simulation::ParticleSetup& p, const std::string& path);
   void check_placement(const simulation::ParticleSetup& p, const std::string& path);
 

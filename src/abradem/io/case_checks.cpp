@@ -142,6 +142,7 @@ void Checker::check_run() {
 void Checker::check_quasi_static() {
   if (!good("particle") || !good("wall")) return;
   for (const ParticleSetup& p : setup_.particles) {
+    if (!p.shape.empty()) continue;
     const std::string path = path_of("particle", p.name);
     if (p.guide == Guide::none)
       error(path,

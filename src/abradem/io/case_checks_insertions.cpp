@@ -7,6 +7,7 @@
 
 #include "abradem/core/suggest.h"
 #include "abradem/io/case_checker.h"
+#include "abradem/io/run_particles.h"
 #include "abradem/simulation/insertion.h"
 
 namespace abradem::io {
@@ -36,21 +37,23 @@ void Checker::check_shapes() {
     if (shape.spheres.empty() == !shape.fit)
       error(path, shape.fit ? "has both spheres and a fit; give one of them"
                             : "needs spheres = [{ position = …, radius = … }, …], or a fit to a mesh file");
-    if (std::ranges::none_of(setup_.insertions,
-                             [&](const InsertionSetup& i) { return i.shape == shape.name; }) &&
-        good("insertion"))
-      note(path, "no insertion uses this shape");
+    const auto has_it = [&](const auto& user) { return user.shape == shape.name; };
+    if (std::ranges::none_of(setup_.insertions, has_it) && std::ranges::none_of(setup_.particles, has_it) &&
+        good("insertion") && good("particle"))
+      note(path, "no insertion and no particle uses this shape");
   }
   std::vector<std::string_view> known;
   for (const ShapeSetup& shape : setup_.shapes) known.emplace_back(shape.name);
-  for (const InsertionSetup& i : setup_.insertions) {
-    const std::string path = path_of("insertion", i.name) + ".shape";
-    if (i.shape.empty() || !good(path) || !good("shape") || std::ranges::find(known, i.shape) != known.end())
-      continue;
-    const std::string nearest = core::nearest_spelling(i.shape, known);
-    error(path, nearest.empty() ? fmt::format("no shape '{}'; add [{}]", i.shape, path_of("shape", i.shape))
-                                : fmt::format("no shape '{}'; did you mean '{}'?", i.shape, nearest));
-  }
+  const auto check_user = [&](const std::string& path, const std::string& shape) {
+    if (shape.empty() || !good(path) || !good("shape") || std::ranges::find(known, shape) != known.end())
+      return;
+    const std::string nearest = core::nearest_spelling(shape, known);
+    error(path, nearest.empty() ? fmt::format("no shape '{}'; add [{}]", shape, path_of("shape", shape))
+                                : fmt::format("no shape '{}'; did you mean '{}'?", shape, nearest));
+  };
+  for (const InsertionSetup& i : setup_.insertions)
+    check_user(path_of("insertion", i.name) + ".shape", i.shape);
+  for (const ParticleSetup& p : setup_.particles) check_user(path_of("particle", p.name) + ".shape", p.shape);
 }
 
 void Checker::check_insertions() {
@@ -59,7 +62,8 @@ void Checker::check_insertions() {
   for (const InsertionSetup& i : setup_.insertions) {
     check_insertion_pairs(i);
     const std::string path = path_of("insertion", i.name);
-    if (i.volume.shape != VolumeShape::file) check_drawn(i, path);
+    if (!gives_places(i.volume.shape)) check_drawn(i, path);
+    if (i.volume.shape == VolumeShape::run) check_left(i, path);
   }
   if (setup_.domain && good("domain")) {
     const Vec3 e = setup_.domain->high - setup_.domain->low;
@@ -69,6 +73,23 @@ void Checker::check_insertions() {
   if (!setup_.insertions.empty() && setup_.run.method == Method::quasi_static && good("run.method"))
     error("run.method",
           "method = \"quasi_static\" balances guided particles; with an [insertion] use \"dynamic\"");
+}
+
+/// An insertion of what another run left.
+void Checker::check_left(const InsertionSetup& i, const std::string& path) {
+  const auto refuse = [&](const char* key, bool given) {
+    if (given)
+      error(fmt::format("{}.{}", path, key),
+            fmt::format("'{}' does not count here: what a run left comes in as it was there", key));
+  };
+  refuse("number", i.number > 0);
+  refuse("mass", i.mass.has_value());
+  refuse("mass_rate", i.mass_rate.has_value());
+  refuse("velocity", i.velocity != Vec3{});
+  refuse("spin", i.spin != Vec3{});
+  refuse("size", places_.given(path + ".size"));
+  if (i.volume.run.empty() || places_.files_kept() || !good(path + ".volume.run")) return;
+  if (const std::string why = why_no_run(i.volume.run); !why.empty()) error(path + ".volume.run", why);
 }
 
 /// An insertion whose spheres are drawn at random.

@@ -54,6 +54,18 @@ std::string inside_message(const ParticleSetup& p, const WallSetup& wall, double
 
 void Checker::check_particle(const ParticleSetup& p) {
   const std::string path = path_of("particle", p.name);
+  if (!p.shape.empty()) {
+    check_named_clump(p, path);
+    return;
+  }
+  if (p.radius == 0.0 && good(path + ".radius")) {
+    error(path, fmt::format("missing key 'radius' in [{}]: Radius of the sphere. Example: radius = \"3 mm\"",
+                            path));
+    return;
+  }
+  if (p.rotation != Vec3{})
+    error(path + ".rotation",
+          fmt::format("'{}' is a sphere: a rotation is for a particle with a shape", p.name));
   if (p.guide == Guide::vertical && norm2(p.spin) > 0.0)
     error(path + ".spin",
           fmt::format("the guide of '{}' blocks its spin; leave spin out, or set guide = \"none\"", p.name));
@@ -68,6 +80,19 @@ void Checker::check_particle(const ParticleSetup& p) {
                       readable(p.radius), p.radius));
   else
     check_placement(p, path);
+}
+
+/// What is free among particles in numbers, and has a name.
+void Checker::check_named_clump(const ParticleSetup& p, const std::string& path) {
+  const auto refuse = [&](const char* key, bool given) {
+    if (given)
+      error(fmt::format("{}.{}", path, key),
+            fmt::format("'{}' has a shape, and moves freely: a {} is for a sphere", p.name, key));
+  };
+  refuse("guide", p.guide != Guide::none);
+  refuse("load", p.load != Vec3{});
+  if (setup_.run.method == Method::quasi_static && good("run.method"))
+    error(path + ".shape", "method = \"quasi_static\" balances guided spheres; a clump needs \"dynamic\"");
 }
 
 /// Does the load, shared by all walls, leave the particle in what Hertz's law holds for?

@@ -292,12 +292,13 @@ simulation::Setup read_tree(const Value& tree, const fs::path& folder, Problems&
   for (simulation::InsertionSetup& insertion : setup.insertions) {
     made_absolute(insertion.size.file);
     made_absolute(insertion.volume.file);
+    made_absolute(insertion.volume.run);
   }
   for (simulation::ShapeSetup& shape : setup.shapes)
     if (shape.fit) made_absolute(shape.fit->file);
   if (setup.study) made_absolute(setup.study->published);
   // A named pin was measured with patches; a plant's walls have triangles of any size.
-  if (!setup.insertions.empty() && setup.particles.empty())
+  if (std::ranges::all_of(setup.particles, [](const auto& p) { return !p.shape.empty(); }))
     for (simulation::WallSetup& wall : setup.walls)
       if (!places.given(fmt::format("wall.{}.contact", toml_key(wall.name))) &&
           wall.deformation != simulation::DeformationRule::paper)

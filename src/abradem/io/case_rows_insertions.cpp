@@ -12,11 +12,12 @@ using namespace std::string_view_literals;
 
 // In the order of the enumerations of setup.h.
 constexpr std::array kSizes{"single"sv, "uniform"sv, "normal"sv, "lognormal"sv, "table"sv};
-constexpr std::array kVolumes{"box"sv, "cylinder"sv, "file"sv, "face"sv};
+constexpr std::array kVolumes{"box"sv, "cylinder"sv, "file"sv, "face"sv, "run"sv};
 constexpr std::array kPeriodic{"none"sv, "x"sv, "y"sv, "z"sv, "xy"sv, "xz"sv, "yz"sv, "xyz"sv};
 constexpr std::array kOutside{"remove"sv, "stop"sv};
 
 constexpr std::array kFile{"file"sv};
+constexpr std::array kRun{"run"sv};
 constexpr std::array kSingle{"single"sv};
 constexpr std::array kNormalSizes{"normal"sv, "lognormal"sv};
 constexpr std::array kBoundedSizes{"uniform"sv, "normal"sv, "lognormal"sv};
@@ -192,9 +193,11 @@ const std::array kRows{
         .need = Need::has_default,
         .slot = ABRADEM_CHOICE(insertion->volume.shape),
         .choices = kVolumes,
+        .implied_by = "run",
         .example = "\"box\"",
-        .doc = "A box, a cylinder, a file that gives the place of every sphere, or a face: a box without "
-               "thickness in one direction, through which spheres come at a mass_rate."},
+        .doc = "A box, a cylinder, a file that gives the place of every sphere, a face (a box without "
+               "thickness in one direction, through which spheres come at a mass_rate), or the folder of a "
+               "run: what it left goes on from there."},
     Row{.section = "insertion.*.volume",
         .key = "low",
         .kind = Kind::vector,
@@ -245,6 +248,25 @@ const std::array kRows{
                "diameter_mm; in any unit), and where the spheres have velocities or spins of their own "
                "velocity_x_m_per_s, velocity_y_m_per_s and velocity_z_m_per_s, or spin_x_rad_per_s, "
                "spin_y_rad_per_s and spin_z_rad_per_s; relative to the folder of the case file."},
+    Row{.section = "insertion.*.volume",
+        .key = "run",
+        .kind = Kind::file,
+        .slot = ABRADEM_SLOT(insertion->volume.run),
+        .when = {"shape", kRun},
+        .example = "\"../runs/settled\"",
+        .doc = "Output folder of a run, relative to the folder of the case file: its particles of this "
+               "material and shape come in as they were there, with their places, sizes, velocities and "
+               "spins. [More](../theory/bulk.md#from-another-run)."},
+    Row{.section = "insertion.*.volume",
+        .key = "at",
+        .need = Need::optional,
+        .slot = ABRADEM_SLOT(insertion->volume.at),
+        .unit = "s",
+        .limits = kNotNegative,
+        .when = {"shape", kRun},
+        .default_note = "its last frame",
+        .example = "\"2 s\"",
+        .doc = "Time of that run, at which it wrote a frame ([output] every)."},
 
     Row{.section = "domain",
         .key = "low",

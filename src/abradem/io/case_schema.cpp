@@ -176,7 +176,12 @@ std::optional<std::string> format_value(const Row& row, const Slot& slot) {
                           if (row.need == Need::optional && text->empty()) return std::nullopt;
                           return toml_string(*text);
                         },
-                        [&](const double* value) -> Text { return format_scalar(row, *value); },
+                        [&](const double* value) -> Text {
+                          // What must be above 0 and is 0 was not given.
+                          if (row.need == Need::optional && *value == 0.0 && row.limits.low_excluded)
+                            return std::nullopt;
+                          return format_scalar(row, *value);
+                        },
                         [&](const std::optional<double>* value) -> Text {
                           return *value ? Text(format_scalar(row, **value)) : std::nullopt;
                         },

@@ -100,7 +100,7 @@ const std::array kSections{
             .name = [](const Target& t) { return t.region->name; },
             .rename = [](const Target& t, const std::string& name) { t.region->name = name; }},
     Section{.path = "particle.*",
-            .doc = "A sphere with a name of its own: a pin, an impactor.",
+            .doc = "A sphere or a clump with a name of its own: a pin, an impactor.",
             .naming = Naming::name,
             .count = [](const Target& t) { return t.setup->particles.size(); },
             .add = [](const Target& t) { t.setup->particles.emplace_back(); },
@@ -108,7 +108,7 @@ const std::array kSections{
             .name = [](const Target& t) { return t.particle->name; },
             .rename = [](const Target& t, const std::string& name) { t.particle->name = name; }},
     Section{.path = "shape.*",
-            .doc = "What particles in numbers look like that are no spheres: spheres that keep together (a "
+            .doc = "What particles look like that are no spheres: spheres that keep together (a "
                    "clump), either given or fitted to a closed mesh. Overlaps count once. "
                    "[More](../theory/clumps.md).",
             .naming = Naming::name,
@@ -138,21 +138,21 @@ const std::array kSections{
             .name = [](const Target& t) { return t.insertion->name; },
             .rename = [](const Target& t, const std::string& name) { t.insertion->name = name; }},
     Section{.path = "insertion.*.size",
-            .doc =
-                "How large the spheres are, by number. Not needed where a file gives their places, or where "
-                "a shape comes in as it was given.",
+            .doc = "How large the spheres are, by number. Not needed where a file or a run gives their "
+                   "places, or where "
+                   "a shape comes in as it was given.",
             .count =
                 [](const Target& t) {
                   const simulation::InsertionSetup& i = *t.insertion;
                   const bool as_given =
                       !i.shape.empty() && i.size.kind == simulation::SizeKind::single && i.size.radius == 0.0;
-                  return std::size_t{i.volume.shape == simulation::VolumeShape::file || as_given ? 0u : 1u};
+                  return std::size_t{simulation::gives_places(i.volume.shape) || as_given ? 0u : 1u};
                 },
             .add = nothing,
             .enter = stay},
     Section{.path = "insertion.*.volume",
-            .doc = "Where the spheres come in: their whole bodies lie inside, and they overlap no other and "
-                   "no wall.",
+            .doc = "Where the spheres come in. Of those that are drawn the whole bodies lie inside, and they "
+                   "overlap no other and no wall; those of a file or a run are taken as they are.",
             .presence = Presence::required,
             .count = one,
             .add = nothing,

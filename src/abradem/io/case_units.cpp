@@ -116,7 +116,7 @@ class Units {
           m.kind == MotionKind::rotation ? "another unit than rad/s (\"deg/s\", \"rpm\")" : "mm/s");
     if (m.kind != MotionKind::oscillation) return;
     for (const ParticleSetup& p : setup_.particles)
-      if (const double width = norm(m.amplitude); width > kWidest * p.radius) {
+      if (const double width = norm(m.amplitude); p.shape.empty() && width > kWidest * p.radius) {
         ask(path + ".amplitude",
             "wall '{}' goes {:.4g} m to and fro, and '{}' has a radius of {:.4g} mm: is the amplitude in "
             "millimetres? A bare number is in metres",
@@ -132,6 +132,7 @@ class Units {
     if (!places_.good(path)) return;
     if (const double v = norm(p.velocity); v > kFastest)
       ask(path + ".velocity", "'{}' starts at {:.4g} m/s: is its velocity in mm/s?", p.name, v);
+    if (!p.shape.empty()) return;
     const double load = norm(p.load), cross_section = std::numbers::pi * p.radius * p.radius;
     if (places_.bare(path + ".load") && load > kHeaviest * cross_section)
       ask(path + ".load",
@@ -147,8 +148,7 @@ class Units {
     if (!places_.good(path)) return;
     if (const double v = norm(i.velocity); v > kFastest)
       ask(path + ".velocity", "particles of '{}' start at {:.4g} m/s: is their velocity in mm/s?", i.name, v);
-    if (!i.placed.empty() || i.volume.shape == VolumeShape::file)
-      return;  // sizes and places of a file have units
+    if (!i.placed.empty() || gives_places(i.volume.shape)) return;  // sizes and places of a file have units
     const double R = largest_radius(i.size);
     if (!(R > 0.0)) return;
     if (const double v = norm(i.spin) * R; v > kFastest)

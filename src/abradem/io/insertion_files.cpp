@@ -14,6 +14,7 @@
 #include "abradem/geometry/mesh_repair.h"
 #include "abradem/io/measured_table.h"
 #include "abradem/io/mesh_files.h"
+#include "abradem/io/run_particles.h"
 
 namespace abradem::io {
 
@@ -114,15 +115,16 @@ void fit_shape(const std::string& name, ShapeFitSetup& fit) {
 
 }  // namespace
 
-void read_insertion_files(Setup& setup) {
+std::vector<std::string> read_insertion_files(Setup& setup) {
   for (ShapeSetup& shape : setup.shapes)
     if (shape.fit) fit_shape(shape.name, *shape.fit);
   for (InsertionSetup& i : setup.insertions) {
     if (i.volume.shape == VolumeShape::file)
       read_places(i);
-    else if (i.size.kind == SizeKind::table)
+    else if (!gives_places(i.volume.shape) && i.size.kind == SizeKind::table)
       read_sizes(i.size);
   }
+  return take_from_runs(setup);
 }
 
 }  // namespace abradem::io

@@ -14,6 +14,7 @@
 #include "abradem/core/hash.h"
 #include "abradem/core/version.h"
 #include "abradem/io/case_file.h"
+#include "abradem/io/run_particles.h"
 #include "abradem/io/wear_tables.h"
 #include "abradem/simulation/wall_motion.h"
 
@@ -177,6 +178,9 @@ std::uint64_t inputs_hash(const simulation::Setup& setup) {
   for (const simulation::InsertionSetup& insertion : setup.insertions)
     for (const std::string& file : {insertion.size.file, insertion.volume.file})
       if (!file.empty()) add_file(hash, file);
+  for (const simulation::InsertionSetup& insertion : setup.insertions)
+    if (insertion.volume.shape == simulation::VolumeShape::run && why_no_run(insertion.volume.run).empty())
+      for (const std::filesystem::path& file : frame_files(insertion.volume)) add_file(hash, file.string());
   for (const simulation::ShapeSetup& shape : setup.shapes)
     if (shape.fit) add_file(hash, shape.fit->file);
   return hash.value();

@@ -9,6 +9,7 @@
 
 #include "abradem/analysis/wall_contours.h"
 #include "abradem/core/error.h"
+#include "abradem/io/run_particles.h"
 #include "abradem/io/wear_map_tables.h"
 
 namespace abradem::io {
@@ -54,6 +55,12 @@ bool moves_rigidly(const simulation::WallSetup& wall) noexcept {
   for (std::size_t k = 0; k < wall.motions(); ++k)
     if (wall.motion_at(k).kind != simulation::MotionKind::none) return true;
   return false;
+}
+
+std::vector<double> components(const std::vector<Vec3>& vectors) {
+  std::vector<double> numbers;
+  for (const Vec3& v : vectors) numbers.insert(numbers.end(), {v.x, v.y, v.z});
+  return numbers;
 }
 
 /// From where a wall's nodes are in its own frame to where its motion has carried them [m].
@@ -198,6 +205,7 @@ void RunRecorder::write_frame() {
   if (run_.particles().size() > 0 || run_.bulk()) {
     const std::string file = fmt::format("vtk/particles_{:04}.vtp", state_.frame);
     write_spheres(folder_ / file);
+    if (run_.bulk() && !run_.bulk()->clumps().shapes().empty()) write_clumps(folder_ / clumps_beside(file));
     state_.frames.push_back({time, file, static_cast<int>(run_.walls().size())});
   }
   write_pvd(folder_ / "series.pvd", state_.frames);
@@ -206,8 +214,10 @@ void RunRecorder::write_frame() {
 
 /// The named particles, then those in numbers, by id.
 void RunRecorder::write_spheres(const std::filesystem::path& path) const {
-  std::vector<Vec3> position = run_.particles().position, velocity = run_.particles().velocity;
-  std::vector<double> radius = run_.particles().radius, id(radius.size()), speeds;
+  std::vector<Vec3> position = run_.particles().position, velocity = run_.particles().velocity,
+                    spin = run_.particles().spin;
+  std::vector<double> radius = run_.particles().radius, id(radius.size()),
+                      material(run_.particles().material.begin(), run_.particles().material.end());
   std::vector<double> clump(radius.size(), -1.0), turn;  // where there are any
   for (std::size_t p = 0; p < radius.size(); ++p) turn.insert(turn.end(), {1.0, 0.0, 0.0, 0.0});
   std::iota(id.begin(), id.end(), 0.0);
@@ -220,6 +230,8 @@ void RunRecorder::write_spheres(const std::filesystem::path& path) const {
       if (spheres.id[i] < run_.bulk()->named()) continue;
       position.push_back(spheres.row[i].position());
       velocity.push_back(spheres.row[i].velocity());
+      spin.push_back(spheres.row[i].spin());
+      material.push_back(spheres.row[i].material);
       radius.push_back(spheres.row[i].radius);
       id.push_back(spheres.id[i]);
       if (run_.bulk()->clumps().shapes().empty()) continue;
@@ -231,13 +243,40 @@ void RunRecorder::write_spheres(const std::filesystem::path& path) const {
       turn.insert(turn.end(), {q.w, q.x, q.y, q.z});
     }
   }
-  for (const Vec3& v : velocity) speeds.insert(speeds.end(), {v.x, v.y, v.z});
-  std::vector<VtpArray> arrays{{"velocity_m_per_s", speeds, 3}, {"id", id, 1}};
+  const std::vector<double> speeds = components(velocity), spins = components(spin);
+  std::vector<VtpArray> arrays{{"velocity_m_per_s", speeds, 3},
+                               {"spin_rad_per_s", spins, 3},
+                               {"id", id, 1},
+                               {"material", material, 1}};
   if (!run_.setup().shapes.empty()) {
     arrays.push_back({"clump", clump, 1});
     arrays.push_back({"orientation", turn, 4});
   }
   write_vtp_spheres(path, position, radius, arrays);
+}
+
+/// The clumps as wholes: of two spheres alone nobody could tell how they are turned.
+void RunRecorder::write_clumps(const std::filesystem::path& path) const {
+  std::vector<Vec3> position, velocity, spin;
+  std::vector<double> radius, id, material, shape, turn;
+  for (const simulation::Clump& c : run_.bulk()->clumps().clumps()) {
+    position.push_back(c.position);
+    velocity.push_back(c.velocity);
+    spin.push_back(c.spin());
+    radius.push_back(c.radius);
+    id.push_back(c.id);
+    material.push_back(c.material);
+    shape.push_back(c.shape);
+    turn.insert(turn.end(), {c.turn.w, c.turn.x, c.turn.y, c.turn.z});
+  }
+  const std::vector<double> speeds = components(velocity), spins = components(spin);
+  write_vtp_spheres(path, position, radius,
+                    std::vector<VtpArray>{{"velocity_m_per_s", speeds, 3},
+                                          {"spin_rad_per_s", spins, 3},
+                                          {"id", id, 1},
+                                          {"material", material, 1},
+                                          {"shape", shape, 1},
+                                          {"orientation", turn, 4}});
 }
 
 /// tables/particles.csv: what became of the particles in numbers.

@@ -77,6 +77,7 @@ class RunRecorder {
   static void keep_some_profiles(std::vector<analysis::Contour>& contours);
   void write_frame();
   void write_spheres(const std::filesystem::path& path) const;
+  void write_clumps(const std::filesystem::path& path) const;
   void write_particles();
 
   simulation::Simulation& run_;

@@ -18,6 +18,7 @@ std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr double kSkin = 0.2;     // of the mean radius
 constexpr double kFastest = 0.1;  // of the radius in one step: a faster one may pass through a wall
+constexpr double kDeepestInWall = 0.5 * contact::kDeepest;  // of the radius
 
 /// Lengths after which space repeats itself; 0 along open axes.
 Vec3 period_of(const std::optional<DomainSetup>& d) noexcept {
@@ -113,6 +114,7 @@ void Bulk::take_in(double time, std::span<const Wall> walls, std::span<const geo
   };
   for (Inserter& inserter : inserters_) {
     if (!inserter.wants(time)) continue;
+    const std::size_t first = spheres_.size();
     if (const ClumpShape* shape = inserter.shape()) {
       const auto number =
           std::ranges::find(clumps_.shapes(), shape->name, &ClumpShape::name) - clumps_.shapes().begin();
@@ -121,15 +123,47 @@ void Bulk::take_in(double time, std::span<const Wall> walls, std::span<const geo
         clumps_.add(birth, spheres_, next_id_);
         worn_out_ = true;
       }
-      continue;
+    } else {
+      for (const contact::SphereRow& s : inserter.insert(time, spheres_, period_, clear)) {
+        spheres_.row.push_back(s);
+        spheres_.id.push_back(next_id_++);
+        worn_out_ = true;
+      }
     }
-    for (const contact::SphereRow& s : inserter.insert(time, spheres_, period_, clear)) {
-      spheres_.row.push_back(s);
-      spheres_.id.push_back(next_id_++);
-      worn_out_ = true;
-    }
+    if (gives_places(inserter.setup().volume.shape)) refuse_buried(inserter, first, time, walls);
   }
   if (!clumps_.empty()) spheres_.clump.resize(spheres_.size(), -1);
+}
+
+/// What a file or another run says may touch walls; but where this case has its walls elsewhere, it may lie
+/// in them.
+void Bulk::refuse_buried(const Inserter& inserter, std::size_t first, double time,
+                         std::span<const Wall> walls) {
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    if (!walls[w].present(time)) continue;
+    const geometry::Pose pose = walls[w].pose_at(time);
+    std::size_t count = 0, example = 0;
+    for (std::size_t i = first; i < spheres_.size(); ++i) {
+      const contact::SphereRow& s = spheres_.row[i];
+      const Vec3 c = pose.to_body(s.position());
+      if (is_clear_of(walls[w], c, (1.0 - kDeepestInWall) * s.radius) && !is_inside(w, walls[w], c)) continue;
+      if (count++ == 0) example = i;
+    }
+    if (count == 0) continue;
+    const std::string& run = inserter.setup().volume.run;
+    const Vec3 p = spheres_.row[example].position();
+    const std::string what = fmt::format(
+        "'{}': {} of its {} spheres lie inside wall '{}' or deeper in it than a tenth of their radius, the "
+        "first at ({:.4g}, {:.4g}, {:.4g}) mm{}",
+        inserter.setup().name, count, spheres_.size() - first, walls[w].setup().name, 1e3 * p.x, 1e3 * p.y,
+        1e3 * p.z,
+        run.empty() ? std::string{}
+                    : fmt::format(". So '{}' left them: does the wall stand where it stood there? One that "
+                                  "moved there begins here as its mesh and motion say",
+                                  run));
+    if (time > 0.0) throw SimulationError(what);
+    throw InputError(what);
+  }
 }
 
 /// Is c, in its frame, inside the solid that the wall's mesh bounds?
@@ -338,7 +372,6 @@ void Bulk::check_overlaps(const Surroundings& around, std::uint64_t step) const 
                        title(at(block.j[k])), 1e3 * overlap),
            around, step);
   });
-  constexpr double kDeepestInWall = 0.5 * contact::kDeepest;
   const auto check_wall = [&](std::int32_t sphere, std::size_t w, double overlap, double most) {
     const double R = spheres_.row[at(sphere)].radius;
     if (overlap <= most * R) return;
@@ -385,7 +418,13 @@ std::string Bulk::title(std::size_t i) const {
   const std::int32_t id = spheres_.id[i];
   if (in_clump(i)) {
     const Clump& c = clumps_.clumps()[at(spheres_.clump[i])];
-    return fmt::format("sphere {} of clump {}", id - c.first_sphere, c.id);
+    // Named ones come in first, each by an insertion of its own (clumps_in_numbers).
+    const auto n = at(c.id);
+    const bool named = n < inserters_.size() && inserters_[n].setup().turns.size() == 1 &&
+                       inserters_[n].setup().volume.file.empty() && inserters_[n].setup().volume.run.empty();
+    return fmt::format(
+        "sphere {} of {}", id - c.first_sphere,
+        named ? fmt::format("particle '{}'", inserters_[n].setup().name) : fmt::format("clump {}", c.id));
   }
   return id < named_ ? fmt::format("particle '{}'", names_[at(id)]) : fmt::format("particle {}", id);
 }

@@ -89,6 +89,7 @@ class Bulk {
  private:
   [[nodiscard]] bool needs_loads() const noexcept { return named_ > 0 || !clumps_.empty(); }
   void take_in(double time, std::span<const Wall> walls, std::span<const geometry::Pose> poses);
+  void refuse_buried(const Inserter& inserter, std::size_t first, double time, std::span<const Wall> walls);
   [[nodiscard]] bool is_inside(std::size_t w, const Wall& wall, const Vec3& c);
   [[nodiscard]] double longest_stretch() const;
   void check_periods() const;

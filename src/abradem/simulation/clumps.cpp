@@ -65,6 +65,7 @@ ClumpShape clump_shape(const ShapeSetup& setup) {
   const geometry::PrincipalAxes axes = geometry::principal_axes(body);
   ClumpShape shape;
   shape.name = setup.name;
+  shape.turn = axes.turn;
   shape.radius = std::cbrt(0.75 * body.volume / std::numbers::pi);
   if (!(body.volume > 0.0) || !(axes.moments.x > 0.0))
     throw InputError(fmt::format("shape '{}' has no volume", setup.name));
@@ -79,6 +80,34 @@ ClumpShape clump_shape(const ShapeSetup& setup) {
     shape.spheres.push_back(own);
   }
   return shape;
+}
+
+Setup clumps_in_numbers(Setup setup) {
+  using geometry::Quaternion;
+  std::vector<InsertionSetup> named;
+  for (const ParticleSetup& p : setup.particles) {
+    if (p.shape.empty()) continue;
+    const auto given = std::ranges::find(setup.shapes, p.shape, &ShapeSetup::name);
+    if (given == setup.shapes.end())
+      throw InputError(fmt::format("particle '{}': no shape '{}'", p.name, p.shape));
+    if (p.guide != Guide::none || p.load != Vec3{})
+      throw InputError(fmt::format("particle '{}' is a clump, which has no guide and no load", p.name));
+    const ClumpShape shape = clump_shape(*given);
+    const Vec3 half = 0.5 * p.rotation;
+    const Quaternion turn = Quaternion{std::cos(half.z), 0.0, 0.0, std::sin(half.z)} *
+                            Quaternion{std::cos(half.y), 0.0, std::sin(half.y), 0.0} *
+                            Quaternion{std::cos(half.x), std::sin(half.x), 0.0, 0.0};
+    InsertionSetup& one = named.emplace_back();
+    one.name = p.name;
+    one.material = p.material;
+    one.shape = p.shape;
+    one.volume.shape = VolumeShape::file;
+    one.placed = {{p.position, p.radius > 0.0 ? p.radius : shape.radius, p.velocity, p.spin}};
+    one.turns = {turn * shape.turn};
+  }
+  std::erase_if(setup.particles, [](const ParticleSetup& p) { return !p.shape.empty(); });
+  setup.insertions.insert(setup.insertions.begin(), named.begin(), named.end());
+  return setup;
 }
 
 void Clumps::add(const Birth& birth, contact::Spheres& spheres, std::int32_t& next_id) {

@@ -22,9 +22,14 @@ struct ClumpShape {
   double radius = 0.0;    ///< of the sphere of equal volume, as the shape was given [m]
   double bounding = 0.0;  ///< radius about the centre that holds all spheres [-]
   double smallest = 0.0, largest = 0.0;  ///< radius of a sphere [-]
+  geometry::Quaternion turn;             ///< at which it stands as it was given
 };
 /// @throws InputError for a shape without spheres, or with one of no size
 [[nodiscard]] ClumpShape clump_shape(const ShapeSetup& setup);
+
+/// The setup with its named clumps as what they move as: insertions of one particle each, before the others.
+/// Without any it stays as it is. @throws InputError for one of no known shape, or that is held or loaded
+[[nodiscard]] Setup clumps_in_numbers(Setup setup);
 
 /// Turns a rigid body on which no torque acts, by one time step. Rotations about the principal axes 3, 2, 1,
 /// 2, 3, each exact, make a symplectic, reversible step of second order that keeps the angular momentum

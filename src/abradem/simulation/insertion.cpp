@@ -116,6 +116,11 @@ double smallest_radius(const InsertionSetup& insertion) noexcept {
   return std::ranges::min(insertion.placed, {}, &PlacedSphere::radius).radius;
 }
 
+double largest_radius(const InsertionSetup& insertion) noexcept {
+  if (insertion.placed.empty()) return largest_radius(insertion.size);
+  return std::ranges::max(insertion.placed, {}, &PlacedSphere::radius).radius;
+}
+
 double draw_radius(const SizeSetup& size, core::RandomStream& random) {
   switch (size.kind) {
     case SizeKind::single:
@@ -244,8 +249,11 @@ std::vector<Clumps::Birth> Inserter::bring_in(double time, const contact::Sphere
     mass_ += mass_of(R, density_);
   };
   if (!setup_->placed.empty()) {
-    for (const PlacedSphere& p : setup_->placed) {
-      if (shape_) {
+    for (std::size_t k = 0; k < setup_->placed.size(); ++k) {
+      const PlacedSphere& p = setup_->placed[k];
+      if (!setup_->turns.empty()) {
+        turn_ = setup_->turns[k];
+      } else if (shape_) {
         const double u = turns_.uniform(), v = turns_.uniform();
         turn_ = geometry::uniform_rotation(u, v, turns_.uniform());
       }

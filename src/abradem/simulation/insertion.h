@@ -20,6 +20,7 @@ namespace abradem::simulation {
 [[nodiscard]] double largest_radius(const SizeSetup& size) noexcept;
 /// Of an insertion, given places included [m].
 [[nodiscard]] double smallest_radius(const InsertionSetup& insertion) noexcept;
+[[nodiscard]] double largest_radius(const InsertionSetup& insertion) noexcept;
 
 /// Bounding box of a box or a cylinder [m], and its volume [m^3].
 [[nodiscard]] geometry::BoundingBox box_of(const VolumeSetup& volume);

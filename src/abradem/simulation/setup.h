@@ -8,6 +8,7 @@
 
 #include "abradem/core/units.h"
 #include "abradem/core/vec3.h"
+#include "abradem/geometry/quaternion.h"
 #include "abradem/geometry/sphere_fit.h"
 
 /// A case, resolved: what the case file says, in SI units, as plain data. The case reader fills it, a C++
@@ -187,6 +188,9 @@ struct ParticleSetup {
   Vec3 spin;                  ///< [rad/s]
   Guide guide = Guide::none;  ///< vertical: a holder leaves only the motion along the load free, no spin
   Vec3 load;                  ///< constant force [N], besides gravity
+  /// Name of a shape; empty: a sphere. The radius is then that of a sphere of equal volume, 0: as given.
+  std::string shape = {};
+  Vec3 rotation = {};  ///< of a shape as it was given: about the fixed axes x, y and z, in this order [rad]
   bool operator==(const ParticleSetup&) const = default;
 };
 
@@ -203,14 +207,20 @@ struct SizeSetup {
   bool operator==(const SizeSetup&) const = default;
 };
 
-enum class VolumeShape { box, cylinder, file, face };
+enum class VolumeShape { box, cylinder, file, face, run };
+/// Do these say where each particle is, instead of a space to draw places in?
+[[nodiscard]] constexpr bool gives_places(VolumeShape shape) noexcept {
+  return shape == VolumeShape::file || shape == VolumeShape::run;
+}
 /// Where spheres are put: their whole bodies lie inside.
 struct VolumeSetup {
   VolumeShape shape = VolumeShape::box;
-  Vec3 low, high;       ///< box; face: a box without thickness, on which the centres lie [m]
-  Vec3 base, top;       ///< cylinder: centres of its ends [m]
-  double radius = 0.0;  ///< cylinder [m]
-  std::string file;     ///< file: CSV with a place for every sphere, absolute
+  Vec3 low, high;            ///< box; face: a box without thickness, on which the centres lie [m]
+  Vec3 base, top;            ///< cylinder: centres of its ends [m]
+  double radius = 0.0;       ///< cylinder [m]
+  std::string file;          ///< file: CSV with a place for every sphere, absolute
+  std::string run;           ///< run: folder of a run that left the particles so, absolute
+  std::optional<double> at;  ///< run: when, by its series.pvd [s]; default: its last frame
   bool operator==(const VolumeSetup&) const = default;
 };
 
@@ -253,13 +263,14 @@ struct InsertionSetup {
   std::string material;
   SizeSetup size;
   VolumeSetup volume;
-  std::uint64_t number = 0;          ///< how many in all; 0: by mass
-  std::optional<double> mass;        ///< how much in all [kg]
-  std::optional<double> mass_rate;   ///< over time [kg/s]; default: all at the start
-  double start = 0.0;                ///< time at which it begins [s]
-  Vec3 velocity;                     ///< [m/s]
-  Vec3 spin;                         ///< [rad/s]
-  std::vector<PlacedSphere> placed;  ///< given places, instead of volume, size and number
+  std::uint64_t number = 0;                 ///< how many in all; 0: by mass
+  std::optional<double> mass;               ///< how much in all [kg]
+  std::optional<double> mass_rate;          ///< over time [kg/s]; default: all at the start
+  double start = 0.0;                       ///< time at which it begins [s]
+  Vec3 velocity;                            ///< [m/s]
+  Vec3 spin;                                ///< [rad/s]
+  std::vector<PlacedSphere> placed;         ///< given places, instead of volume, size and number
+  std::vector<geometry::Quaternion> turns;  ///< of each placed, of a shape; none given: at random
   std::string shape;  ///< name of a shape; empty: spheres. Radii are then those of spheres of equal volume
   bool operator==(const InsertionSetup&) const = default;
 };

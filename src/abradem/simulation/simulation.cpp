@@ -48,7 +48,7 @@ material::ContactOptions options_of(const ContactSetup& c) {
 
 }  // namespace
 
-Simulation::Simulation(Setup setup, const MeshSource& source) : setup_(std::move(setup)) {
+Simulation::Simulation(Setup setup, const MeshSource& source) : setup_(clumps_in_numbers(std::move(setup))) {
   for (const MaterialSetup& m : setup_.materials)
     materials_.push_back({m.density, m.shear_modulus, m.poisson_ratio});
   for (const WallSetup& wall : setup_.walls)
@@ -166,7 +166,7 @@ void Simulation::refuse_missing_pairs(const std::vector<char>& given) const {
   for (const ParticleSetup& p : setup_.particles)
     bodies.push_back({fmt::format("particle '{}'", p.name), p.material, true});
   for (const InsertionSetup& i : setup_.insertions)
-    bodies.push_back({fmt::format("insertion '{}'", i.name), i.material, false});
+    bodies.push_back({fmt::format("insertion '{}'", i.name), i.material, i.placed.size() == 1});
   const std::size_t moving = bodies.size();
   for (const WallSetup& wall : setup_.walls)
     bodies.push_back({fmt::format("wall '{}'", wall.name), wall.material, true});

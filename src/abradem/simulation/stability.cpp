@@ -75,6 +75,7 @@ Simulation::InsertionLimits Simulation::limits_of(const Inserter& inserter) cons
   for (const PlacedSphere& s : i.placed) speed = std::max(speed, norm(s.velocity));
   if (speed == 0.0) return limits;
   const auto meet = [&](const contact::PairProperties& properties, double R_eff, double m_eff) {
+    if (!(properties.E_eff > 0.0)) return;  // they cannot meet
     limits.hertz = std::max(limits.hertz, dt_ / material::hertz_time(properties.E_eff, R_eff, m_eff, speed));
     // Where all of m v^2 / 2 is in the contact: (8/15) E sqrt(R) overlap^(5/2).
     const double overlap =

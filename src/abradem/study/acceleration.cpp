@@ -116,11 +116,8 @@ class Grooves {
 double widest(const Simulation& run) {
   double radius = 0.0;
   for (const double R : run.particles().radius) radius = std::max(radius, R);
-  for (const simulation::Inserter& inserter : run.bulk()->inserters()) {
-    const simulation::InsertionSetup& i = inserter.setup();
-    if (i.placed.empty()) radius = std::max(radius, simulation::largest_radius(i.size));
-    for (const simulation::PlacedSphere& s : i.placed) radius = std::max(radius, s.radius);
-  }
+  for (const simulation::Inserter& inserter : run.bulk()->inserters())
+    radius = std::max(radius, simulation::largest_radius(inserter.setup()));
   return 2.0 * radius;
 }
 

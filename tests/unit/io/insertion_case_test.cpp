@@ -10,6 +10,7 @@
 #include "abradem/core/error.h"
 #include "abradem/io/case_file.h"
 #include "abradem/io/insertion_files.h"
+#include "abradem/simulation/clumps.h"
 
 namespace abradem::io {
 namespace {
@@ -266,6 +267,56 @@ TEST(ShapeCase, RefusesWhatCannotBe) {
   EXPECT_NE(with("spheres = 8", "spheres = 0").find("1 to 200"), std::string::npos);
   EXPECT_NE(with("spheres = [{ position = [0, 0, 0], radius = \"2 mm\" }, ", "spheres = [3, ")
                 .find("'spheres' is a list of tables"),
+            std::string::npos);
+}
+
+constexpr const char* kRock = R"([shape.pebble]
+spheres = [{ position = [0, 0, 0], radius = "2 mm" }, { position = ["2 mm", 0, 0], radius = "1.5 mm" }]
+[particle.rock]
+material = "glass"
+shape = "pebble"
+rotation = [0, "90 deg", 0]
+position = [0, 0, "10 mm"]
+velocity = [0, 0, -1]
+spin = ["10 rad/s", 0, 0]
+)";
+
+TEST(ShapeCase, GivesANamedParticleItsLooks) {
+  const simulation::Setup setup = read(std::string(kHead) + kRock);
+  ASSERT_EQ(setup.particles.size(), 1u);
+  EXPECT_EQ(setup.particles[0].shape, "pebble");
+  EXPECT_DOUBLE_EQ(setup.particles[0].rotation.y, 0.5 * std::numbers::pi);
+  EXPECT_EQ(setup.particles[0].radius, 0.0);
+  EXPECT_EQ(setup.walls[0].contact, simulation::ContactRule::automatic);
+  EXPECT_EQ(read(resolved_case(setup)), setup);
+  // As it moves: one particle of an insertion, turned so that the smaller sphere is below.
+  const simulation::Setup moves = simulation::clumps_in_numbers(setup);
+  EXPECT_TRUE(moves.particles.empty());
+  ASSERT_EQ(moves.insertions.size(), 1u);
+  EXPECT_EQ(simulation::clumps_in_numbers(moves), moves);
+  const simulation::ClumpShape shape = simulation::clump_shape(setup.shapes[0]);
+  EXPECT_DOUBLE_EQ(moves.insertions[0].placed[0].radius, shape.radius);
+  const auto place = [&](std::size_t k) {
+    return shape.radius * moves.insertions[0].turns[0].turn(shape.spheres[k].centre);
+  };
+  EXPECT_NEAR(norm(place(1) - place(0) - Vec3{0, 0, -2e-3}), 0.0, 1e-15);
+}
+
+TEST(ShapeCase, RefusesNamedParticlesThatCannotBe) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = kRock;
+    text.replace(text.find(from), from.size(), to);
+    return refusal(std::string(kHead) + text);
+  };
+  EXPECT_NE(with("shape = \"pebble\"", "shape = \"peble\"").find("no shape 'peble'; did you mean 'pebble'?"),
+            std::string::npos);
+  EXPECT_NE(
+      with("spin", "load = 1\nspin").find("'rock' has a shape, and moves freely: a load is for a sphere"),
+      std::string::npos);
+  EXPECT_NE(with("spin", "guide = \"vertical\"\nspin").find("a guide is for a sphere"), std::string::npos);
+  EXPECT_NE(with("shape = \"pebble\"\n", "").find("missing key 'radius' in [particle.rock]"),
+            std::string::npos);
+  EXPECT_NE(with("shape = \"pebble\"", "radius = 0.001").find("a rotation is for a particle with a shape"),
             std::string::npos);
 }
 
