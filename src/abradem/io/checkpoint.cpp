@@ -24,7 +24,7 @@ constexpr std::string_view kMagic =
     "\x89"
     "ABRADM\n";
 /// Raised when a field keeps its name and type but not its meaning; other changes the fields' tags show.
-constexpr std::uint32_t kFormat = 4;
+constexpr std::uint32_t kFormat = 3;
 constexpr std::size_t kHead = 8 + 4 + 8 + 8, kKept = 2;
 constexpr std::string_view kPrefix = "step-", kSuffix = ".checkpoint";
 
