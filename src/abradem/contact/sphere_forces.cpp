@@ -328,6 +328,15 @@ struct Step {
   }
 };
 
+/// What the rows hold is of the step before, and goes: a copy would stand beside the old ones.
+void make_room(LoadRows& load, std::size_t rows) {
+  if (load.capacity() < rows) {
+    LoadRows().swap(load);
+    load.reserve(rows + rows / 32);
+  }
+  load.resize(rows);
+}
+
 Advance together(const std::vector<Advance>& blocks) {
   Advance all;
   for (const Advance& m : blocks) {
@@ -344,7 +353,7 @@ Advance together(const std::vector<Advance>& blocks) {
 
 bool sphere_forces(const Spheres& spheres, SphereList& list, const PairTable& table, double dt,
                    LoadRows& load) {
-  load.resize(list.load_rows());
+  make_room(load, list.load_rows());
   const Step step{spheres, list, table, dt, load};
   std::vector<std::uint8_t> sound(list.blocks());
   core::parallel_blocks(list.blocks(), [&](std::size_t b) { sound[b] = step.forces(b) ? 1 : 0; });
@@ -365,7 +374,7 @@ Advance advance_spheres(std::span<SphereRow> spheres, std::span<const LoadRow> l
 
 Advance forces_and_advance(Spheres& spheres, SphereList& list, const PairTable& table, double dt,
                            LoadRows& load, const Vec3& gravity, const AddLoads& add_loads) {
-  load.resize(list.load_rows());
+  make_room(load, list.load_rows());
   const Step step{spheres, list, table, dt, load};
   std::vector<Advance> met(list.blocks());
   std::vector<std::atomic<bool>> has_forces(list.blocks());
