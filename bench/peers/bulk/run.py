@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The settled box of bench/bulk.cpp, by LAMMPS, LIGGGHTS and Abradem: same spheres, law, step, skin and walls.
+"""The settled box of bench/bulk.cpp, by LAMMPS, LIGGGHTS, Yade and Abradem: same spheres, law, step, skin and walls.
 
     abradem_bulk make 10000 box.csv
     bench/peers/bulk/run.py box.csv --bulk build/bench/bench/abradem_bulk [--steps 200] [--runs 5] [--threads 1]
 
-A code that is not installed gets a row that says so (Debian: lammps, liggghts). All start from the positions of
+A code that is not installed gets a row that says so (Debian: lammps, liggghts, yade). All start from the positions of
 box.csv at rest, take 200 steps, and are then timed for --steps, --runs times. The contacts and the elastic energy
 that Abradem counts in the positions each code has after the 200 steps tell whether they do the same work.
 """
 import argparse
+import json
 import math
 import os
 import pathlib
@@ -119,11 +120,36 @@ def run_peer(name, side, points, args):
             return [name, "failed: " + (done.stdout + done.stderr).strip().splitlines()[-1], "", "", ""]
         rows = (folder / "box.data.dump").read_text().splitlines()
         start = max(i for i, row in enumerate(rows) if row.startswith("ITEM: ATOMS")) + 1
-        after = folder / "after.csv"
-        after.write_text(f"{side}\n" + "\n".join(",".join(r.split()[:3]) for r in rows[start:] if r) + "\n")
-        contacts, energy = count(args, after)
-    work = len(points) * args.steps
+        places = "\n".join(",".join(r.split()[:3]) for r in rows[start:] if r) + "\n"
+        return table_row(name, side, places, len(points), loops, folder, args)
+
+
+def table_row(name, side, places, spheres, loops, folder, args):
+    after = folder / "after.csv"
+    after.write_text(f"{side}\n{places}")
+    contacts, energy = count(args, after)
+    work = spheres * args.steps
     return [name, f"{work / statistics.median(loops):.3g}", f"{work / min(loops):.3g}", contacts, energy]
+
+
+def run_yade(side, points, args):
+    """As run_peer; a script instead of a deck."""
+    name = "Yade Mindlin"
+    if shutil.which("yade") is None:
+        return [name, "not installed", "", "", ""]
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        after = folder / "places"
+        (folder / "task").write_text(json.dumps(dict(
+            young=YOUNG, poisson=POISSON, density=DENSITY, friction=FRICTION, restitution=RESTITUTION, side=side,
+            radius=RADIUS, points=points, skin=SKIN, step=STEP, steps=args.steps, runs=args.runs, after=str(after))))
+        script = pathlib.Path(__file__).with_name("yade_box.py")
+        done = subprocess.run(["yade", "-n", "-x", "-j", str(args.threads), str(script)], cwd=folder,
+                              capture_output=True, text=True, env=dict(os.environ, BOX=str(folder / "task")))
+        loops = [float(t) for t in re.findall(r"Loop time of ([0-9.e+-]+)", done.stdout)]
+        if len(loops) != args.runs:
+            return [name, "failed: " + (done.stdout + done.stderr).strip().splitlines()[-1], "", "", ""]
+        return table_row(name, side, after.read_text(), len(points), loops, folder, args)
 
 
 def count(args, path):
@@ -157,6 +183,7 @@ def main():
     side, points = float(lines[0]), [tuple(map(float, line.split(","))) for line in lines[1:]]
     rows = [["code", "median, particle-steps/s", "best", "contacts", "elastic energy [J]"], run_ours(args)]
     rows += [run_peer(name, side, points, args) for name in LAWS]
+    rows.append(run_yade(side, points, args))
     print(f"{len(points)} spheres, {args.threads} core(s), {args.runs} runs of {args.steps} steps of {STEP:.4g} s, wall time")
     print_table(rows)
 

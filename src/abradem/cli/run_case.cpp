@@ -337,7 +337,8 @@ int run_case(const RunOptions& options) {
   if (choose) setup = study::accelerated(setup, 1.0);
   Simulation run(setup, MeshLoader(setup));
   io::refuse_misplaced_particles(run);
-  how.record.inputs_hash = io::inputs_hash(options.setup);  // reads the meshes, which may be refused for their size
+  how.record.inputs_hash =
+      io::inputs_hash(options.setup);  // reads the meshes, which may be refused for their size
 
   const StopSignals signals;
   OutputFolder folder(options.output, options.force);
