@@ -56,6 +56,15 @@ std::string motions_of(const WallSetup& wall) {
   return out;
 }
 
+std::string source_of(const InsertionSetup& i) {
+  if (i.volume.shape == VolumeShape::file) return "as in " + i.volume.file;
+  if (i.volume.shape == VolumeShape::run)
+    return fmt::format("{}as left by {}",
+                       i.placed.empty() ? "" : fmt::format("{} particles, ", i.placed.size()), i.volume.run);
+  return i.number > 0 ? fmt::format("{} particles", i.number)
+                      : fmt::format("{:.4g} kg", i.mass.value_or(0.0));
+}
+
 }  // namespace
 
 std::string summarize(const Setup& setup) {
@@ -70,16 +79,8 @@ std::string summarize(const Setup& setup) {
                          core::format_quantity(p.radius, "mm"), norm(p.load),
                          p.guide == Guide::vertical ? ", guided" : "");
   for (const InsertionSetup& i : setup.insertions)
-    out +=
-        fmt::format("  insertion '{}' of {}: {}{}\n", i.name, i.material,
-                    i.volume.shape == VolumeShape::file ? "as in " + i.volume.file
-                    : i.volume.shape == VolumeShape::run
-                        ? fmt::format("{}as left by {}",
-                                      i.placed.empty() ? "" : fmt::format("{} particles, ", i.placed.size()),
-                                      i.volume.run)
-                    : i.number > 0 ? fmt::format("{} particles", i.number)
-                                   : fmt::format("{:.4g} kg", i.mass.value_or(0.0)),
-                    i.mass_rate ? fmt::format(" at {:.4g} kg/s", *i.mass_rate) : "");
+    out += fmt::format("  insertion '{}' of {}: {}{}\n", i.name, i.material, source_of(i),
+                       i.mass_rate ? fmt::format(" at {:.4g} kg/s", *i.mass_rate) : "");
   const Duration& end = setup.run.end;
   out += fmt::format("  run: {} {}, {}", core::format_number(end.value),
                      end.in_revolutions ? unit_of_counting(setup) : "s",

@@ -34,7 +34,7 @@ std::size_t padded(std::size_t n) noexcept {
 
 /// Arrays of `count` one after another in a store.
 template <typename T>
-void lay_out(std::initializer_list<std::span<T>*> arrays, core::SmallVector<T>& store,
+void lay_out(std::initializer_list<std::span<T>*> arrays, core::PooledVector<T>& store,
              std::size_t count) noexcept {
   std::size_t from = 0;
   for (std::span<T>* array : arrays) {

@@ -134,16 +134,16 @@ class MeshCandidates {
     return (n + kLanes - 1) / kLanes * kLanes;
   }
 
-  core::SmallVector<Index> node;               ///< mesh vertex of each local node
-  std::span<double> x, y, z;                   ///< node positions, padded [m]
-  std::span<double> node_area;                 ///< third of the area of the triangles around, padded [m^2]
-  std::span<double> bx, by, bz;                ///< third of their area vectors, padded [m^2]
-  core::SmallVector<std::int32_t> star_start;  ///< local triangles around node i: star[star_start[i]] … (CSR)
-  core::SmallVector<std::int32_t> star;
+  core::PooledVector<Index> node;               ///< mesh vertex of each local node
+  std::span<double> x, y, z;                    ///< node positions, padded [m]
+  std::span<double> node_area;                  ///< third of the area of the triangles around, padded [m^2]
+  std::span<double> bx, by, bz;                 ///< third of their area vectors, padded [m^2]
+  core::PooledVector<std::int32_t> star_start;  ///< local triangles around node i (CSR)
+  core::PooledVector<std::int32_t> star;
   Vec3 mean_normal;                    ///< of all candidates, unit
   Vec3 mean_point;                     ///< of the nodes inside the ball when gathered, by overlap [m]
   double below_plane = 0.0;            ///< no node lies further below the plane through these two [m]
-  core::SmallVector<Index> triangle;   ///< mesh triangle of each local triangle
+  core::PooledVector<Index> triangle;  ///< mesh triangle of each local triangle
   std::span<std::int32_t> v0, v1, v2;  ///< local nodes of each triangle, padded
   std::span<double> ax, ay, az;        ///< area vectors, padded [m^2]
   std::span<double> plane;             ///< area vector . vertex, padded [m^3]
@@ -166,18 +166,18 @@ class MeshCandidates {
 
   // Side by side, in the order of their use: there may be thousands of these objects, most of a few
   // triangles.
-  core::SmallVector<double> of_nodes_, of_triangles_;
-  core::SmallVector<std::int32_t> corners_;
+  core::PooledVector<double> of_nodes_, of_triangles_;
+  core::PooledVector<std::int32_t> corners_;
   bool gathered_ = false, nearly_flat_ = false;
   Vec3 built_at_, built_axis_;
   CandidateSkin built_skin_;
   double built_reach_ = 0.0, odometer_at_gather_ = 0.0, odometer_at_measure_ = 0.0, shortest_ = 0.0;
   double odometer_ = 0.0, longest_edge2_at_gather_ = 0.0;
   std::uint64_t revision_ = 0, gatherings_ = 0, stamp_ = 0;
-  core::SmallVector<Vec3> measured_;  // nodes' positions when the triangles were last measured
-  std::vector<Index> near_;           // scratch: triangles of the cells near the way
-  std::vector<double> across_;        // scratch: their distances from the way, or -1: out of reach
-  std::vector<double> around_;        // scratch: of measure_nodes
+  core::PooledVector<Vec3> measured_;  // nodes' positions when the triangles were last measured
+  std::vector<Index> near_;            // scratch: triangles of the cells near the way
+  std::vector<double> across_;         // scratch: their distances from the way, or -1: out of reach
+  std::vector<double> around_;         // scratch: of measure_nodes
 };
 
 }  // namespace abradem::contact

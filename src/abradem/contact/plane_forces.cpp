@@ -6,6 +6,7 @@
 
 #include "abradem/contact/full_law.h"
 #include "abradem/core/parallel.h"
+#include "abradem/core/prefetch.h"
 
 namespace abradem::contact {
 
@@ -95,9 +96,7 @@ bool plane_forces(const Spheres& spheres, PlaneList& list, const MovingPlane& pl
         std::size_t count = 0;
         const std::size_t end = std::min(list.size(), (chunk + 1) * kCapacity);
         for (std::size_t k = chunk * kCapacity; k < end; ++k) {
-          const char* const row = reinterpret_cast<const char*>(&spheres.row[at(list.sphere[k])]);
-          __builtin_prefetch(row);
-          __builtin_prefetch(row + 64);
+          core::prefetch(&spheres.row[at(list.sphere[k])], sizeof(SphereRow));
         }
         for (std::size_t k = chunk * kCapacity; k < end; ++k) {
           const SphereRow& s = spheres.row[at(list.sphere[k])];

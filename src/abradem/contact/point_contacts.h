@@ -10,6 +10,7 @@
 #include "abradem/contact/mesh_candidates.h"
 #include "abradem/contact/tip_shape.h"
 #include "abradem/contact/triangle_links.h"
+#include "abradem/core/prefetch.h"
 #include "abradem/geometry/closest_point.h"
 
 namespace abradem::contact {
@@ -72,9 +73,7 @@ struct FewTriangles {
 
   /// Asks the memory for what the next search reads, but for triangles that most often are out of reach.
   void fetch() const noexcept {
-    const auto* from = reinterpret_cast<const char*>(this);
-    const auto* end = reinterpret_cast<const char*>(&triangle[2]);
-    for (const auto* line = from; line < end; line += 64) __builtin_prefetch(line);
+    core::prefetch(this, sizeof *this - (kMost - 2) * sizeof(CandidateTriangle));
   }
 };
 
@@ -155,7 +154,7 @@ class PointContactFinder {
   [[nodiscard]] Findings& found() noexcept { return lent_ != nullptr ? *lent_ : own_; }
   [[nodiscard]] const Findings& found() const noexcept { return lent_ != nullptr ? *lent_ : own_; }
 
-  core::SmallVector<OutOfReach> out_;  // of each candidate
+  core::PooledVector<OutOfReach> out_;  // of each candidate
   double odometer_ = 0.0, radius_ = 0.0;
   Vec3 last_;
   std::uint64_t stamp_ = 0;  // of the candidates that these are of

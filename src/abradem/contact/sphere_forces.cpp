@@ -7,6 +7,7 @@
 #include "abradem/contact/full_law.h"
 #include "abradem/contact/quads.h"
 #include "abradem/core/parallel.h"
+#include "abradem/core/prefetch.h"
 
 namespace abradem::contact {
 
@@ -222,9 +223,7 @@ ABRADEM_INLINE double forces_of_block(const Work& block, std::size_t count, Pair
   for (std::size_t done = 0; done < count; done += kCapacity) {
     // Partners lie here and there: ask early for those that will be needed.
     for (std::size_t k = kCapacity; k < std::min(2 * kCapacity, count - done); ++k) {
-      const char* const row = reinterpret_cast<const char*>(w.sphere + w.j[k]);
-      __builtin_prefetch(row);
-      __builtin_prefetch(row + 64);
+      core::prefetch(w.sphere + w.j[k], sizeof(SphereRow));
     }
     deepest =
         std::max(deepest, forces_of_chunk<kOptions, kPeriodic>(w, p, std::min(kCapacity, count - done)));

@@ -30,7 +30,7 @@ struct SmallBlocks {
 };
 
 template <typename T>
-using SmallVector = std::vector<T, SmallBlocks<T>>;
+using PooledVector = std::vector<T, SmallBlocks<T>>;
 
 /// A class that derives from it is made by `new` in small_blocks().
 struct InSmallBlocks {

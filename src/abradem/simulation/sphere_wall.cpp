@@ -371,7 +371,7 @@ ForceAndTorque SphereWall::compute(const Wall& wall, const geometry::Pose& pose,
                                    const contact::PairProperties& pair, double dt) {
   ForceAndTorque total;
   rolling_ = {};
-  core::SmallVector<Memory>& kept = scratch().kept;
+  core::PooledVector<Memory>& kept = scratch().kept;
   kept.clear();
   kept.reserve(touches_.size());  // recall hands out references
   for (Touch& touch : touches_) {

@@ -138,7 +138,7 @@ class SphereWall : public core::InSmallBlocks {
     wear::FootprintIntegrator footprint;
     std::vector<WearShare> shares;  // of the last landing
     std::vector<char> mask;
-    core::SmallVector<Memory> kept;  // what the contacts of this step go on with
+    core::PooledVector<Memory> kept;  // what the contacts of this step go on with
   };
   /// Null: it has its own. What ploughs must not share.
   void lend(Scratch* scratch) noexcept {
@@ -150,8 +150,7 @@ class SphereWall : public core::InSmallBlocks {
   /// there, its arrays.
   void fetch() const noexcept {
     const auto* from = reinterpret_cast<const char*>(this);
-    for (const auto* line = from; line < reinterpret_cast<const char*>(&tip_); line += 64)
-      __builtin_prefetch(line);
+    core::prefetch(from, static_cast<std::size_t>(reinterpret_cast<const char*>(&tip_) - from));
   }
   void fetch_arrays() const noexcept {
     if (near_) {
@@ -161,9 +160,7 @@ class SphereWall : public core::InSmallBlocks {
       points_.fetch();
     }
     const auto ask = [](const auto& list) {
-      if (list.empty()) return;
-      const char* from = reinterpret_cast<const char*>(list.data());
-      for (std::size_t byte = 0; byte < sizeof list.front(); byte += 64) __builtin_prefetch(from + byte);
+      if (!list.empty()) core::prefetch(list.data(), sizeof list.front());
     };
     ask(touches_);
     ask(memory_);
@@ -250,8 +247,8 @@ class SphereWall : public core::InSmallBlocks {
   [[nodiscard]] ForceAndTorque load(const geometry::Pose& pose, double R) const noexcept;
   /// The sphere's centre at the last search, in the wall's frame.
   [[nodiscard]] const Vec3& centre() const noexcept { return centre_; }
-  [[nodiscard]] const core::SmallVector<Touch>& touches() const noexcept { return touches_; }
-  [[nodiscard]] core::SmallVector<Touch>& touches() noexcept { return touches_; }
+  [[nodiscard]] const core::PooledVector<Touch>& touches() const noexcept { return touches_; }
+  [[nodiscard]] core::PooledVector<Touch>& touches() noexcept { return touches_; }
   [[nodiscard]] const contact::MeshCandidates& candidates() const noexcept { return candidates_; }
   /// Elements in contact: under `patch` those with a corner in the ball, else the contacts.
   [[nodiscard]] int elements(const Wall& wall) const;
@@ -391,10 +388,10 @@ class SphereWall : public core::InSmallBlocks {
   double centroid_volume_ = 0.0;
   static constexpr std::uint64_t kNeverNoted = ~std::uint64_t{0};
   std::uint64_t noted_revision_ = kNeverNoted;  // of the surface, when its nodes were last noted
-  core::SmallVector<Touch> touches_;
-  core::SmallVector<Memory> memory_;
+  core::PooledVector<Touch> touches_;
+  core::PooledVector<Memory> memory_;
   std::vector<double> node_pending_;  // wear at each candidate node, not yet booked with its elements [m^3]
-  core::SmallVector<Vec3> noted_;     // of each candidate node: where it was when last noted
+  core::PooledVector<Vec3> noted_;    // of each candidate node: where it was when last noted
   contact::Tip tip_;
   contact::MeshCandidates candidates_;
   contact::PointContactFinder points_;
@@ -404,10 +401,10 @@ class SphereWall : public core::InSmallBlocks {
   double tip_pending_ = 0.0, tip_batch_ = 0.0;  // worn off the tip in one go [m^3]
   double tip_area_ = 0.0;                       // of the tip under pressure, of late [m^2]
   wear::RidgeBuilder ridges_;
-  double unpiled_ = 0.0, slid_ = 0.0;                       // since the last pile [m^3, m]
-  std::vector<Pressing> ploughing_;                         // the last contacts
-  core::SmallVector<contact::kernels::NodeMotion> motion_;  // of the nodes noted, since then, padded
-  std::vector<double> terms_;                               // scratch
+  double unpiled_ = 0.0, slid_ = 0.0;                        // since the last pile [m^3, m]
+  std::vector<Pressing> ploughing_;                          // the last contacts
+  core::PooledVector<contact::kernels::NodeMotion> motion_;  // of the nodes noted, since then, padded
+  std::vector<double> terms_;                                // scratch
 };
 
 }  // namespace abradem::simulation

@@ -171,22 +171,30 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
   // Candidates are ordered outwards, so what is loaded stands in front.
   std::size_t n = candidates.triangle_count();
   while (n > 0 && bound(candidates, field, n - 1) <= cut) --n;
-  for (auto* array : {&at0_, &at1_, &at2_}) array->assign(candidates.padded_triangle_count(), 0.0);
-  if (worn) {
-    // Points no further apart than a fifth of the footprint's radius; the sliding averages what is left.
-    constexpr int kFinest = 48;
-    // Compared as it is: a spot of no size asks for infinitely many, a state that is not a number for none.
-    const double wanted = 2.0 * kEdgesPerReach / edges;
-    choose_points(wanted < kFinest ? std::max(static_cast<int>(std::ceil(wanted)), 2) : kFinest);
-  }
   const auto masked_out = [&](std::size_t t) { return !mask.empty() && mask[t] == 0; };
+  if (!worn) {
+    under_.clear();
+    for (std::size_t t = 0; t < n; ++t)
+      if (!masked_out(t)) under_.push_back(candidates.triangle_at(t));
+    integrate(under_, {field.c, field.R, field.deepest}, cut, weight);
+    for (std::vector<double>* array : {&at0_, &at1_, &at2_}) {
+      array->resize(candidates.padded_triangle_count());
+      for (std::size_t k = under_.size(); k > 0; --k)  // from k - 1 to its place among all
+        std::swap((*array)[static_cast<std::size_t>(under_[k - 1].local)], (*array)[k - 1]);
+    }
+    return share_out(n);
+  }
+
+  for (auto* array : {&at0_, &at1_, &at2_}) array->assign(candidates.padded_triangle_count(), 0.0);
+  // Points no further apart than a fifth of the footprint's radius; the sliding averages what is left.
+  constexpr int kFinest = 48;
+  // Compared as it is: a spot of no size asks for infinitely many, a state that is not a number for none.
+  const double wanted = 2.0 * kEdgesPerReach / edges;
+  choose_points(wanted < kFinest ? std::max(static_cast<int>(std::ceil(wanted)), 2) : kFinest);
   shares_.total = 0.0;
   for (std::size_t t = 0; t < n; ++t) {
     if (bound(candidates, field, t) <= cut || masked_out(t)) continue;
-    if (worn)
-      subdivide(candidates, field, t, weight);
-    else
-      integrate_exactly(candidates, field, t, weight);
+    subdivide(candidates, field, t, weight);
     shares_.total += (at0_[t] + at1_[t]) + at2_[t];
   }
   if (!(shares_.total > 0.0) && n > 0) {
@@ -204,13 +212,18 @@ const FootprintShares& FootprintIntegrator::integrate(const MeshCandidates& cand
     at0_[best] = at1_[best] = at2_[best] = 1.0;
     shares_.total = 3.0;
   }
-  shares_.count = n;
+  return share_out(n);
+}
+
+const FootprintShares& FootprintIntegrator::share_out(std::size_t count) noexcept {
+  shares_.count = count;
   shares_.at0 = at0_;
   shares_.at1 = at1_;
   shares_.at2 = at2_;
   return shares_;
 }
 
+/// The sphere is as new: a weight of the distance from its centre.
 template <typename Weight>
 const FootprintShares& FootprintIntegrator::integrate(std::span<const CandidateTriangle> triangles,
                                                       const Ball& ball, double cut, const Weight& weight) {
@@ -243,11 +256,7 @@ const FootprintShares& FootprintIntegrator::integrate(std::span<const CandidateT
     at0_[deepest] = at1_[deepest] = at2_[deepest] = 1.0;
     shares_.total = 3.0;
   }
-  shares_.count = triangles.size();
-  shares_.at0 = at0_;
-  shares_.at1 = at1_;
-  shares_.at2 = at2_;
-  return shares_;
+  return share_out(triangles.size());
 }
 
 /// No point of triangle t has a larger excess: squared distances are convex.
@@ -278,20 +287,6 @@ void FootprintIntegrator::choose_points(int parts) {
   while (points_.share.size() % MeshCandidates::kLanes != 0) add(third, third, 0.0);
   points_.e.resize(points_.share.size());
   points_.w.resize(points_.share.size());
-}
-
-/// The sphere is as new: a weight of the distance from its centre.
-template <typename Weight>
-void FootprintIntegrator::integrate_exactly(const MeshCandidates& candidates, const OverlapField& field,
-                                            std::size_t t, const Weight& weight) {
-  const auto corner = [&](std::int32_t v) {
-    return candidates.node_position(static_cast<std::size_t>(v)) - field.c;
-  };
-  const CornerIntegrals part = integrate_over_triangle(weight.ball(field.R), corner(candidates.v0[t]),
-                                                       corner(candidates.v1[t]), corner(candidates.v2[t]));
-  at0_[t] = part.at0;
-  at1_[t] = part.at1;
-  at2_[t] = part.at2;
 }
 
 /// Under a worn tip: centroid rule on equal parts of triangle t.

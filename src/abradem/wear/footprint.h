@@ -71,9 +71,7 @@ class FootprintIntegrator {
                                    const Weight& weight);
   [[nodiscard]] static double bound(const contact::MeshCandidates& candidates, const OverlapField& field,
                                     std::size_t t) noexcept;
-  template <typename Weight>
-  void integrate_exactly(const contact::MeshCandidates& candidates, const OverlapField& field, std::size_t t,
-                         const Weight& weight);
+  const FootprintShares& share_out(std::size_t count) noexcept;
   template <typename Weight>
   void subdivide(const contact::MeshCandidates& candidates, const OverlapField& field, std::size_t t,
                  const Weight& weight);
@@ -85,6 +83,7 @@ class FootprintIntegrator {
     int parts = 0;
     std::vector<double> b1, b2, share, e, w;
   } points_;
+  std::vector<contact::CandidateTriangle> under_;
   FootprintShares shares_;
   std::vector<double> at_node_, at0_, at1_, at2_;
 };

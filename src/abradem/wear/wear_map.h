@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "abradem/core/prefetch.h"
 #include "abradem/wear/laws.h"
 
 /// What a wall suffers, element by element, and how hard and fast, region by region.
@@ -192,8 +193,7 @@ class WearMap {
     }
     /// Asks the memory for an element.
     void fetch(std::size_t element) const noexcept {
-      const auto* from = reinterpret_cast<const char*>(&elements[element]);
-      for (std::size_t byte = 0; byte < sizeof(Element); byte += 64) __builtin_prefetch(from + byte, 1);
+      core::prefetch<true>(&elements[element], sizeof(Element));
     }
 
     template <typename Self, typename Archive>
